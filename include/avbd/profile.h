@@ -1,0 +1,30 @@
+// What a step did and what it cost.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace avbd {
+
+/// Stages of a step in the order in which they run; the files of src/step carry the same names.
+enum class Stage : uint8_t { Pairs, Contacts, Islands, Colors, BeginRows, Predict, SolveBlocks, UpdateRows, Velocities, Publish };
+inline constexpr size_t kStageCount = 10;
+/// Name of a stage as in its file: "pairs", "contacts", ... "publish".
+const char* stageName(Stage stage);
+
+/// Figures of the last step.
+struct StepReport {
+  uint64_t step = 0;      ///< how many steps this world has made
+  uint32_t bodies = 0;    ///< dynamic bodies
+  uint32_t pairs = 0;     ///< pairs of shapes whose bounds overlap
+  uint32_t contacts = 0;  ///< pairs with at least one contact point
+  uint32_t points = 0;    ///< contact points
+  uint32_t joints = 0;
+  uint32_t islands = 0;
+  uint32_t colors = 0;    ///< of the block sweep; 0 where it did not run
+  uint32_t simdWidth = 0; ///< lanes used: 1, 4, 8 or 16
+  std::array<double, kStageCount> seconds{};  ///< wall time of each stage
+};
+
+}  // namespace avbd

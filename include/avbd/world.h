@@ -1,0 +1,145 @@
+// The world: everything that exists between steps, and the step.
+#pragma once
+
+#include <avbd/body.h>
+#include <avbd/error.h>
+#include <avbd/events.h>
+#include <avbd/joint.h>
+#include <avbd/profile.h>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace avbd {
+
+/// How the primal system of an iteration is solved (docs/method.md).
+enum class PrimalSolver : uint8_t {
+  Krylov,      ///< preconditioned conjugate gradients over an island, exact trees inside (default)
+  BlockSweep,  ///< Gauss-Seidel over bodies in colours, as in the AVBD paper
+};
+
+/// Settings of a world. All have defaults that need no turning.
+struct WorldDef {
+  Vec3 gravity{0, -9.81f, 0};  ///< [m/s^2]
+  int workers = 1;             ///< threads that step() may use, >= 1
+  int iterations = 4;          ///< outer iterations of the solver per substep, 1 .. 1000
+  int substeps = 1;            ///< 1 .. 1000
+  /// Size of a usual thing, in the unit of the positions: 1 where that is the metre. All tolerances scale with it.
+  float lengthUnit = 1;
+  float restitutionThreshold = 1;  ///< [m/s] approach speed below which nothing rebounds
+  float maxDepenetrationSpeed = 3; ///< [m/s] at most, for bodies that overlap at the start of a step
+  PrimalSolver primalSolver = PrimalSolver::Krylov;
+  int krylovIterations = 0;  ///< conjugate-gradient steps per outer iteration; 0 takes the default, <= 1000
+  int simdWidth = 0;         ///< 1, 4, 8, 16; 0 takes the widest that this processor runs. Changes no bit of the result.
+};
+
+/// A simulation. Different worlds may be used by different threads at the same time. One world may be read (every
+/// const function) by many threads at the same time, as long as no thread calls a function that is not const.
+class World {
+ public:
+  explicit World(const WorldDef& def = {});  ///< throws Error
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  // Making and removing. Throw Error before anything has changed.
+  BodyId create(const BodyDef& def);
+  ShapeId create(BodyId body, const ShapeDef& def);  ///< mass is computed anew unless massProperties were given
+  JointId create(const BallJoint& def);
+  JointId create(const FixedJoint& def);
+  JointId create(const TetVolume& def);
+  void destroy(BodyId id);  ///< with its shapes and its joints
+  void destroy(ShapeId id);
+  void destroy(JointId id);
+  bool isAlive(BodyId id) const;
+  bool isAlive(ShapeId id) const;
+  bool isAlive(JointId id) const;
+  /// Shapes of these two bodies never touch from now on.
+  void excludeCollision(BodyId a, BodyId b);
+
+  /// Advances time by dt [s], 0 < dt <= 1. Throws Error for a bad dt, NonFiniteError if a body's state becomes NaN or
+  /// infinite.
+  const StepReport& step(float dt);
+  const StepReport& report() const;  ///< of the last step
+  double time() const;               ///< [s] since the world was made
+
+  // Whole world.
+  const WorldDef& definition() const;
+  void setGravity(Vec3 gravity);
+  void setIterations(int iterations);
+  void setSubsteps(int substeps);
+  /// Hash over poses, velocities and row memories: equal if and only if (but for chance) the states are equal.
+  uint64_t hash() const;
+  std::vector<BodyId> bodies() const;  ///< in order of their slots
+  std::vector<JointId> joints() const;
+  size_t bodyCount() const;
+  size_t shapeCount() const;
+  size_t jointCount() const;
+
+  // Bodies.
+  BodyType type(BodyId id) const;
+  Pose pose(BodyId id) const;  ///< of the body's frame
+  /// Teleport: sets the pose of the body's frame; contacts of the body lose their memory.
+  void setPose(BodyId id, const Pose& pose);
+  Velocity velocity(BodyId id) const;
+  void setVelocity(BodyId id, const Velocity& velocity);
+  float mass(BodyId id) const;            ///< [kg]; 0 for static and kinematic bodies
+  SymMat3 inertia(BodyId id) const;       ///< about the centre of mass, body axes
+  Vec3 centerOfMass(BodyId id) const;     ///< in the body's frame
+  Vec3d worldCenterOfMass(BodyId id) const;
+  void setMassProperties(BodyId id, const MassProperties& properties);  ///< dynamic bodies only
+  /// Forces act during the next step and are then forgotten. A null point means the centre of mass.
+  void addForce(BodyId id, Vec3 force);                  ///< [N]
+  void addForceAt(BodyId id, Vec3 force, Vec3d point);   ///< [N] at a world point
+  void addTorque(BodyId id, Vec3 torque);                ///< [N m]
+  void addImpulse(BodyId id, Vec3 impulse);              ///< [N s], changes the velocity now
+  void addImpulseAt(BodyId id, Vec3 impulse, Vec3d point);
+  void addAngularImpulse(BodyId id, Vec3 impulse);       ///< [N m s]
+  void setDamping(BodyId id, float linear, float angular);
+  void setGravityScale(BodyId id, float scale);
+  void setLocks(BodyId id, uint8_t locks);
+  void setMaxSpeeds(BodyId id, float linear, float angular);
+  uint64_t userData(BodyId id) const;
+  void setUserData(BodyId id, uint64_t data);
+  std::vector<ShapeId> shapes(BodyId id) const;
+  double kineticEnergy(BodyId id) const;  ///< [J]
+  double kineticEnergy() const;           ///< of all dynamic bodies
+  Vec3d momentum() const;                 ///< of all dynamic bodies [kg m/s]
+  Vec3d angularMomentum(Vec3d about = {}) const;  ///< [kg m^2/s]
+
+  // Bulk: out[i] belongs to ids[i]; spans of equal length, else Error.
+  void getPoses(std::span<const BodyId> ids, std::span<Pose> out) const;
+  void getVelocities(std::span<const BodyId> ids, std::span<Velocity> out) const;
+  void setVelocities(std::span<const BodyId> ids, std::span<const Velocity> in);
+  void addForces(std::span<const BodyId> ids, std::span<const Vec3> forces);
+
+  // Shapes.
+  BodyId body(ShapeId id) const;
+  Geometry geometry(ShapeId id) const;
+  Pose localPose(ShapeId id) const;  ///< in the body's frame
+  Material material(ShapeId id) const;
+  void setMaterial(ShapeId id, const Material& material);
+  Filter filter(ShapeId id) const;
+  void setFilter(ShapeId id, const Filter& filter);
+  uint64_t userData(ShapeId id) const;
+  void setUserData(ShapeId id, uint64_t data);
+
+  // Joints.
+  JointType type(JointId id) const;
+  JointReaction reaction(JointId id) const;
+  /// Distance between the anchors [m] (BallJoint, FixedJoint); |C| [m^3] of a TetVolume.
+  double gap(JointId id) const;
+  double angleError(JointId id) const;  ///< [rad] of a FixedJoint; else 0
+  uint64_t userData(JointId id) const;
+  void setUserData(JointId id, uint64_t data);
+
+  /// Contacts of the last step, ordered by shape ids.
+  std::vector<Contact> contacts() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace avbd
