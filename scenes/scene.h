@@ -1,14 +1,26 @@
-// A scene: a function that builds a world, how to run it, and a check of the result.
+// A scene: a function that builds a world, how to run it, and a check of the result; and the lines of acceptance.
 #pragma once
 
-#include <avbd/avbd.h>
-
 #include <functional>
-#include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "io/model.h"
+#include "scenes/run.h"
+
 namespace avbd::scenes {
+
+/// What an experiment changes in every world that a scene or line builds; what is not set keeps its default.
+struct Settings {
+  std::optional<int> iterations, substeps, krylovIterations, simdWidth, workers;
+  std::optional<PrimalSolver> primalSolver;
+};
+
+/// The definition with the settings applied.
+WorldDef apply(const Settings& settings, WorldDef def = {});
 
 /// One figure that a scene's check measured, against its bounds.
 struct Figure {
@@ -18,5 +30,40 @@ struct Figure {
   double lower = 0, upper = 0;  ///< passes if finite and lower <= measured <= upper
   std::string unit;
 };
+
+bool passes(const Figure& figure);
+Figure atMost(std::string name, double measured, double upper, std::string unit, std::string params = {});
+/// Within target (1 - tolerance) .. target (1 + tolerance).
+Figure within(std::string name, double measured, double target, double tolerance, std::string unit,
+              std::string params = {});
+/// A yes-or-no figure: 1 or 0, bounds 1 .. 1.
+Figure holds(std::string name, bool yes, std::string params = {});
+
+struct Scene {
+  std::string name;
+  std::string alias;  ///< its letter in the list of benchmark scenes; empty if none
+  std::string description;
+  std::function<Model(const Settings&)> make;
+  int warmup = 60, steps = 300;
+  Watch watch;
+  std::function<std::vector<Figure>(const Evidence&)> check;
+};
+
+/// One line of acceptance.
+struct Line {
+  std::string list;  ///< "R", "J", "A", "S", "D"
+  std::string name;
+  std::function<std::vector<Figure>(const Settings&)> run;  ///< empty if skipped
+  std::string skipReason;
+};
+
+const std::vector<Scene>& all();
+const std::vector<Line>& lines();
+/// By name or alias; null if there is none.
+const Scene* find(std::string_view name);
+const Line* findLine(std::string_view name);
+
+/// Builds the scene and runs it in this engine.
+Evidence run(const Scene& scene, const Settings& settings = {});
 
 }  // namespace avbd::scenes

@@ -36,9 +36,9 @@ enum class Combine : uint8_t { GeometricMean, Average, Minimum, Multiply, Maximu
 
 /// Surface of a shape.
 struct Material {
-  float friction = 0.5f;          ///< Coulomb coefficient while slipping, >= 0
-  float staticFriction = -1;      ///< while sticking, >= friction; -1 means equal to friction
-  float restitution = 0;          ///< 0 .. 1: rebound speed over approach speed
+  float friction = 0.5f;      ///< Coulomb coefficient while slipping, >= 0
+  float staticFriction = -1;  ///< while sticking, >= friction; -1 means equal to friction
+  float restitution = 0;      ///< 0 .. 1: rebound speed over approach speed
   Combine frictionCombine = Combine::GeometricMean;
   Combine restitutionCombine = Combine::Maximum;
   /// Of two touching shapes the one with the larger priority alone gives friction and restitution; equal priorities
@@ -58,10 +58,10 @@ struct Filter {
 /// A shape to put on a body.
 struct ShapeDef {
   Geometry geometry = Sphere{};
-  Pose pose;             ///< in the body's frame
-  float density = 1000;  ///< [kg/m^3] >= 0; ignored where the body's mass is given. HalfSpace has no mass.
-  Material material;
-  Filter filter;
+  Pose pose{};           ///< in the body's frame
+  float density = 1000;  ///< [kg/m^3] >= 0; where BodyDef.mass is given only ratios count. HalfSpace has no mass.
+  Material material{};
+  Filter filter{};
   uint64_t userData = 0;
 };
 

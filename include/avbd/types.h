@@ -26,8 +26,8 @@ struct Quat {
 
 /// Position and rotation of a frame: in the world, or in a body's frame where a field says so.
 struct Pose {
-  Vec3d position;
-  Quat rotation;
+  Vec3d position{};
+  Quat rotation{};
   friend bool operator==(const Pose&, const Pose&) = default;
 };
 

@@ -40,7 +40,7 @@ class World {
  public:
   explicit World(const WorldDef& def = {});  ///< throws Error
   ~World();
-  World(World&&) noexcept;
+  World(World&&) noexcept;  ///< the source may then only be destroyed or assigned to
   World& operator=(World&&) noexcept;
 
   // Making and removing. Throw Error before anything has changed.
@@ -50,7 +50,7 @@ class World {
   JointId create(const FixedJoint& def);
   JointId create(const TetVolume& def);
   void destroy(BodyId id);  ///< with its shapes and its joints
-  void destroy(ShapeId id);
+  void destroy(ShapeId id);  ///< as create; a dynamic body that loses its last mass keeps what it had
   void destroy(JointId id);
   bool isAlive(BodyId id) const;
   bool isAlive(ShapeId id) const;
@@ -83,13 +83,13 @@ class World {
   /// Teleport: sets the pose of the body's frame; contacts of the body lose their memory.
   void setPose(BodyId id, const Pose& pose);
   Velocity velocity(BodyId id) const;
-  void setVelocity(BodyId id, const Velocity& velocity);
+  void setVelocity(BodyId id, const Velocity& velocity);  ///< not of static bodies; zero along locked axes
   float mass(BodyId id) const;            ///< [kg]; 0 for static and kinematic bodies
   SymMat3 inertia(BodyId id) const;       ///< about the centre of mass, body axes
   Vec3 centerOfMass(BodyId id) const;     ///< in the body's frame
   Vec3d worldCenterOfMass(BodyId id) const;
   void setMassProperties(BodyId id, const MassProperties& properties);  ///< dynamic bodies only
-  /// Forces act during the next step and are then forgotten. A null point means the centre of mass.
+  /// Forces, torques and impulses: dynamic bodies only. Forces act during the next step and are then forgotten.
   void addForce(BodyId id, Vec3 force);                  ///< [N]
   void addForceAt(BodyId id, Vec3 force, Vec3d point);   ///< [N] at a world point
   void addTorque(BodyId id, Vec3 torque);                ///< [N m]
@@ -127,6 +127,9 @@ class World {
 
   // Joints.
   JointType type(JointId id) const;
+  BallJoint ballJoint(JointId id) const;    ///< the definition; Error if it is a joint of another type
+  FixedJoint fixedJoint(JointId id) const;  ///< as above
+  TetVolume tetVolume(JointId id) const;    ///< as above; restVolume is the one in use
   JointReaction reaction(JointId id) const;
   /// Distance between the anchors [m] (BallJoint, FixedJoint); |C| [m^3] of a TetVolume.
   double gap(JointId id) const;

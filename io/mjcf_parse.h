@@ -1,0 +1,114 @@
+// An MJCF file as plain data: defaults resolved, angles in radians, poses in the parent's frame, masses computed.
+#pragma once
+
+#include "io/file_error.h"
+#include "io/mjcf_math.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace avbd::mjcf {
+
+enum class GeomKind { Plane, HeightField, Sphere, Capsule, Ellipsoid, Cylinder, Box, Mesh, Sdf };
+enum class JointKind { Free, Ball, Slide, Hinge };
+
+/// Mass about its centre; inertia in the axes of the frame that the owner names.
+struct Mass {
+  double mass = 0;  ///< [kg]
+  Vec3d center;     ///< [m]
+  Sym3d inertia;    ///< [kg m^2]
+};
+
+struct Geom {
+  std::string name, where;  ///< where: `tower.xml:12: geom "a"`, for messages
+  GeomKind kind = GeomKind::Sphere;
+  Vec3d size;   ///< radius; radius, half length; or half extents; the rest zero
+  Posed pose;   ///< in the body's frame; long shapes lie along z
+  double mass = 0;
+  bool massKnown = true;  ///< false where the shape is one whose volume this reader cannot compute
+  double friction = 1;    ///< sliding
+  int condim = 3, priority = 0, contype = 1, conaffinity = 1, group = 0;
+};
+
+struct Joint {
+  std::string name, where;
+  JointKind kind = JointKind::Hinge;
+  Vec3d pos;            ///< in the body's frame
+  Vec3d axis{0, 0, 1};  ///< unit, in the body's frame
+  double ref = 0;       ///< [rad] or [m] that the pose of the file stands for
+};
+
+struct Body {
+  std::string name, where;
+  int parent = 0;  ///< index; the world is body 0 and its own parent
+  Posed pose;      ///< in the parent's frame
+  std::vector<Joint> joints;
+  std::vector<Geom> geoms;
+  Mass mass;               ///< in the body's frame
+  bool massKnown = true;   ///< false where a geom's mass is not
+  bool moves = false;      ///< it or a body above it has a joint
+  bool mocap = false;
+  double gravcomp = 0;
+  size_t qposAt = 0, qvelAt = 0;  ///< where its joints' coordinates begin in a keyframe
+};
+
+struct Exclude {
+  std::string where;
+  int bodyA = 0, bodyB = 0;
+};
+
+/// Names one geom.
+struct GeomRef {
+  int body = 0;
+  size_t geom = 0;
+};
+
+struct Pair {
+  std::string where;
+  GeomRef a, b;
+  bool hasFriction = false, hasCondim = false;
+  double friction = 1;
+  int condim = 3;
+};
+
+struct Equality {
+  std::string where;
+  bool weld = false;  ///< else connect
+  int bodyA = 0, bodyB = 0;
+  Vec3d anchor;            ///< connect: in A's frame; weld: in B's
+  bool hasRelative = false;
+  Posed relative;          ///< weld: of B in A's frame, if given; else as the file's poses are
+};
+
+struct Key {
+  std::string name, where;
+  std::vector<double> qpos, qvel;  ///< of the whole model, or empty
+};
+
+struct Description {
+  std::string name;  ///< of the model; empty where the file gives none
+  std::string fileName;
+  double dt = 0.002;
+  Vec3d gravity{0, 0, -9.81};
+  bool contactsOff = false;      ///< only predefined pairs collide, if those
+  bool pairsOff = false;
+  bool filterParent = true;      ///< a moving parent and its child do not collide
+  std::vector<Body> bodies;      ///< parents first, in the order of the file; [0] is the world
+  std::vector<Exclude> excludes;
+  std::vector<Pair> pairs;
+  std::vector<Equality> equalities;
+  std::vector<Key> keys;
+  size_t nq = 0, nv = 0;
+  std::vector<std::string> notes;
+};
+
+/// Reads and checks; throws FileError.
+Description parseFile(const std::filesystem::path& file);
+Description parseText(std::string_view xml, std::string_view nameForMessages);
+
+/// World poses of all bodies with the joints at qpos, or as the file has them where qpos is empty.
+std::vector<Posed> worldPoses(const Description& description, const std::vector<double>& qpos);
+
+}  // namespace avbd::mjcf

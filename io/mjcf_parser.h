@@ -1,0 +1,111 @@
+// The reader behind mjcf_parse.h: walks the elements and fills a Description.
+#pragma once
+
+#include "io/mjcf_defaults.h"
+#include "io/mjcf_parse.h"
+
+#include <functional>
+#include <set>
+
+namespace avbd::mjcf {
+
+enum class FromGeoms { No, Yes, Auto };
+
+struct Compiler {
+  bool degrees = true;
+  std::string eulerOrder = "xyz";
+  FromGeoms inertiaFromGeom = FromGeoms::Auto;
+  double groupFirst = 0, groupLast = 5;
+  double boundMass = 0, boundInertia = 0;
+  bool balanceInertia = false;
+  double setTotalMass = -1;
+};
+
+/// What an <inertial> says.
+struct Inertial {
+  Elem elem;
+  bool given = false;
+  Mass mass;  // in the body's frame
+};
+
+/// One element whose children are being read, on the walk through the bodies.
+struct OpenElem {
+  std::vector<Elem> children;
+  size_t next = 0;
+  int body = 0;
+  int cls = Defaults::kMain;  // for children that name none
+  Posed frame;                // of <frame>s since the body, in the body's frame
+};
+
+class Parser {
+ public:
+  explicit Parser(XmlSource source) : source_(std::move(source)), defaults_(source_) {}
+  Parser(const Parser&) = delete;
+  Description run();
+
+ private:
+  // mjcf_parser.cpp: the sections
+  void forSection(std::string_view name, const std::function<void(Elem)>& read);
+  void noteChildren(Elem section, std::string_view sectionName);
+  void readRoot();
+  void readCompiler(Elem elem);
+  void readOption(Elem elem);
+  void readFlag(Elem elem);
+  void readAssets(Elem elem);
+  Attributes own(Elem elem, std::string_view element);
+
+  // mjcf_parser_bodies.cpp: the tree
+  void readBodies(Elem worldbody);
+  void readBodyChild(Elem elem, std::vector<OpenElem>& open);
+  void openBody(Elem elem, std::vector<OpenElem>& open);
+  void openFrame(Elem elem, std::vector<OpenElem>& open);
+  void readJoint(Elem elem, const OpenElem& in, bool isFree);
+  void noteUnusedJoint(const Attributes& a, const Joint& joint);
+  void readInertial(Elem elem, const OpenElem& in);
+  void finishTree();
+  Quatd orientation(const Attributes& a) const;
+  Posed pose(const Attributes& a) const;
+  Vec3d vector(const Attributes& a, std::string_view name, Vec3d otherwise) const;
+  std::string nameOnce(const Attributes& a, std::set<std::string, std::less<>>& names);
+
+  // mjcf_parser_geoms.cpp
+  void readGeom(Elem elem, const OpenElem& in);
+  void readShape(const Attributes& a, Geom& geom);
+  void applyFromTo(const Attributes& a, Geom& geom);
+  void readSurface(const Attributes& a, Geom& geom);
+  void readGeomMass(const Attributes& a, Geom& geom);
+  void checkReference(const Attributes& a, std::string_view attribute);
+
+  // mjcf_parser_masses.cpp: once all bodies are known
+  void finishMasses();
+  void finishMass(size_t body);
+  void limitMass(size_t body);
+  void scaleTotalMass();
+
+  // mjcf_parser_links.cpp: what joins and separates bodies, keyframes
+  void readContact(Elem elem);
+  void readExclude(Elem elem);
+  void readPair(Elem elem);
+  void readEqualities(Elem elem);
+  void readEquality(Elem elem, bool weld);
+  void readKeys(Elem elem);
+  std::vector<double> keyNumbers(const Attributes& a, std::string_view name, size_t count);
+  int bodyNamed(const Attributes& a, std::string_view attribute) const;
+  GeomRef geomNamed(const Attributes& a, std::string_view attribute) const;
+
+  XmlSource source_;
+  Notes notes_;
+  Defaults defaults_;
+  Compiler compiler_;
+  Description out_;
+  std::vector<Inertial> inertials_;  // of out_.bodies
+  std::vector<Elem> bodyElems_;      // of out_.bodies
+  std::map<std::string, int, std::less<>> bodyByName_{{"world", 0}};
+  std::map<std::string, GeomRef, std::less<>> geomByName_;
+  std::set<std::string, std::less<>> jointNames_, equalityNames_, keyNames_, pairNames_, excludeNames_;
+  std::map<std::string, std::set<std::string, std::less<>>, std::less<>> assets_;  // names by element
+  bool coordinatesMissing_ = false;  // something left out would have brought coordinates of its own
+  bool equalitiesOff_ = false;
+};
+
+}  // namespace avbd::mjcf

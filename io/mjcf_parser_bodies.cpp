@@ -1,0 +1,229 @@
+// MJCF bodies: the tree, poses, joints, inertial elements.
+#include "io/mjcf_parser.h"
+
+#include "io/mjcf_schema.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace avbd::mjcf {
+
+Vec3d Parser::vector(const Attributes& a, std::string_view name, Vec3d otherwise) const {
+  const std::vector<double> v = a.numbers(name, 3, 3);
+  return v.empty() ? otherwise : Vec3d{v[0], v[1], v[2]};
+}
+
+Quatd Parser::orientation(const Attributes& a) const {
+  int given = 0;
+  for (const char* name : {"quat", "axisangle", "euler", "xyaxes", "zaxis"}) given += a.elem().has(name) ? 1 : 0;
+  if (given > 1) source_.fail(a.elem(), "more than one of quat, axisangle, euler, xyaxes, zaxis is given");
+  const double unit = compiler_.degrees ? std::numbers::pi / 180 : 1;
+  constexpr double kTiny = 1e-14;
+  Quatd q;
+  // Where a default class gives one and the element another, the later in this order wins, as in MuJoCo.
+  if (const auto v = a.numbers("quat", 4, 4); !v.empty()) {
+    q = {v[0], v[1], v[2], v[3]};
+    if (!(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z > kTiny)) a.fail("quat", "must not be zero");
+  }
+  if (const auto v = a.numbers("axisangle", 4, 4); !v.empty()) {
+    const Vec3d axis{v[0], v[1], v[2]};
+    if (!(length(axis) > kTiny)) a.fail("axisangle", "the axis must not be zero");
+    q = turnAbout(axis, v[3] * unit);
+  }
+  if (const auto v = a.numbers("xyaxes", 6, 6); !v.empty()) {
+    Vec3d x{v[0], v[1], v[2]}, y{v[3], v[4], v[5]};
+    if (!(length(x) > kTiny)) a.fail("xyaxes", "the x axis must not be zero");
+    x = x * (1 / length(x));
+    const double size = length(y);
+    y = y - x * dot(x, y);
+    if (!(length(y) > 1e-9 * size)) a.fail("xyaxes", "the y axis must not be zero or along the x axis");
+    y = y * (1 / length(y));
+    q = fromAxes(x, y, cross(x, y));
+  }
+  if (const auto v = a.numbers("zaxis", 3, 3); !v.empty()) {
+    const Vec3d z{v[0], v[1], v[2]};
+    if (!(length(z) > kTiny)) a.fail("zaxis", "must not be zero");
+    q = turnFromZ(z);
+  }
+  if (const auto v = a.numbers("euler", 3, 3); !v.empty()) {
+    q = {};
+    for (size_t i = 0; i < 3; ++i) {
+      const char axis = compiler_.eulerOrder[i];
+      const char low = static_cast<char>(axis | 0x20);
+      const Quatd turn = turnAbout({low == 'x' ? 1.0 : 0, low == 'y' ? 1.0 : 0, low == 'z' ? 1.0 : 0}, v[i] * unit);
+      q = axis == low ? q * turn : turn * q;  // small letters turn with the body, capitals about fixed axes
+    }
+  }
+  return normalized(q);
+}
+
+Posed Parser::pose(const Attributes& a) const { return {vector(a, "pos", {}), orientation(a)}; }
+
+std::string Parser::nameOnce(const Attributes& a, std::set<std::string, std::less<>>& names) {
+  std::string name = a.text("name");
+  if (!name.empty() && !names.insert(name).second) a.fail("name", "another element of this kind has this name");
+  return name;
+}
+
+void Parser::readBodies(Elem worldbody) {
+  const Attributes a = own(worldbody, "worldbody");
+  OpenElem world;
+  world.children = source_.children(worldbody);
+  if (a.has("childclass")) world.cls = defaults_.find(worldbody, "childclass");
+  // An explicit stack: the tree may be deeper than the C stack allows.
+  std::vector<OpenElem> open;
+  open.push_back(std::move(world));
+  while (!open.empty()) {
+    OpenElem& top = open.back();
+    if (top.next == top.children.size()) {
+      open.pop_back();
+    } else {
+      readBodyChild(top.children[top.next++], open);
+    }
+  }
+}
+
+void Parser::readBodyChild(Elem elem, std::vector<OpenElem>& open) {
+  const std::string_view name = elem.name();
+  if (name == "body") return openBody(elem, open);
+  if (name == "frame") return openFrame(elem, open);
+  const OpenElem& in = open.back();
+  if (name == "geom") return readGeom(elem, in);
+  if (name == "joint" || name == "freejoint") return readJoint(elem, in, name == "freejoint");
+  if (name == "inertial") return readInertial(elem, in);
+  switch (sectionOf("body", name)) {
+    case Section::Noted:
+      notes_.add(source_.where(elem), std::string(name) + " is left out");
+      coordinatesMissing_ = true;
+      break;
+    case Section::Unknown:
+      notes_.add(source_.where(elem), "unknown element " + quoted(name) + " of body");
+      break;
+    default:
+      break;
+  }
+}
+
+void Parser::openBody(Elem elem, std::vector<OpenElem>& open) {
+  const Attributes a = own(elem, "body");
+  const OpenElem& in = open.back();
+  Body body;
+  body.name = a.text("name");
+  body.where = source_.where(elem);
+  body.parent = in.body;
+  body.pose = in.frame * pose(a);
+  body.mocap = a.flag("mocap", false);
+  if (body.mocap && in.body != 0) a.fail("mocap", "only children of worldbody can be mocap bodies");
+  body.gravcomp = a.number("gravcomp", 0);
+  const int index = static_cast<int>(out_.bodies.size());
+  if (!body.name.empty() && !bodyByName_.emplace(body.name, index).second) {
+    a.fail("name", "another body has this name");
+  }
+  OpenElem next;
+  next.children = source_.children(elem);
+  next.body = index;
+  next.cls = elem.has("childclass") ? defaults_.find(elem, "childclass") : in.cls;
+  out_.bodies.push_back(std::move(body));
+  inertials_.emplace_back();
+  bodyElems_.push_back(elem);
+  open.push_back(std::move(next));
+}
+
+void Parser::openFrame(Elem elem, std::vector<OpenElem>& open) {
+  const Attributes a = own(elem, "frame");
+  const OpenElem& in = open.back();
+  OpenElem next;
+  next.children = source_.children(elem);
+  next.body = in.body;
+  next.cls = elem.has("childclass") ? defaults_.find(elem, "childclass") : in.cls;
+  next.frame = in.frame * pose(a);
+  open.push_back(std::move(next));
+}
+
+void Parser::readJoint(Elem elem, const OpenElem& in, bool isFree) {
+  Body& body = out_.bodies[static_cast<size_t>(in.body)];
+  checkAttributes(source_, elem, elem.name(), notes_);
+  const Attributes a = isFree ? own(elem, "freejoint") : defaults_.resolve(elem, "joint", in.cls);
+  if (in.body == 0) source_.fail(elem, "the world cannot have a joint");
+  if (body.mocap) source_.fail(elem, "a mocap body cannot have joints");
+  Joint joint;
+  joint.where = source_.where(elem);
+  joint.name = nameOnce(a, jointNames_);
+  joint.kind = isFree ? JointKind::Free
+                      : static_cast<JointKind>(a.keyword("type", {"free", "ball", "slide", "hinge"}, 3));
+  if (!isFree) {
+    joint.pos = in.frame.position + rotate(in.frame.rotation, vector(a, "pos", {}));
+    joint.axis = vector(a, "axis", {0, 0, 1});
+    if (joint.kind >= JointKind::Slide && !(length(joint.axis) > 1e-14)) a.fail("axis", "must not be zero");
+    if (joint.kind >= JointKind::Slide) joint.axis = rotate(in.frame.rotation, joint.axis * (1 / length(joint.axis)));
+    joint.ref = a.number("ref", 0);
+    if (joint.kind == JointKind::Hinge && compiler_.degrees) joint.ref *= std::numbers::pi / 180;
+    noteUnusedJoint(a, joint);
+  }
+  const bool freeAmong = joint.kind == JointKind::Free || (!body.joints.empty() && body.joints[0].kind == JointKind::Free);
+  if (freeAmong && !body.joints.empty()) source_.fail(elem, "a free joint must be the only joint of its body");
+  if (freeAmong && body.parent != 0) source_.fail(elem, "a free joint is only allowed in a child of worldbody");
+  if (joint.kind == JointKind::Free) joint.pos = {};
+  body.joints.push_back(std::move(joint));
+}
+
+void Parser::noteUnusedJoint(const Attributes& a, const Joint& joint) {
+  const bool limited = a.keyword("limited", {"false", "true", "auto"}, 2) == 1 || a.has("range");
+  if (joint.kind >= JointKind::Slide) return;  // those are welded, which is noted when that is done
+  if (joint.kind == JointKind::Ball && limited) notes_.add(joint.where, "the limit of a ball joint is not used");
+  for (const char* name : {"stiffness", "damping", "springdamper", "frictionloss", "armature"}) {
+    const auto values = a.numbers(name, 1, 3);
+    if (!values.empty() && values[0] != 0) notes_.add(joint.where, "joint attribute " + std::string(name) + " is not used");
+  }
+}
+
+void Parser::readInertial(Elem elem, const OpenElem& in) {
+  const Attributes a = own(elem, "inertial");
+  Inertial& inertial = inertials_[static_cast<size_t>(in.body)];
+  if (in.body == 0) source_.fail(elem, "the world cannot have an inertial");
+  if (inertial.given) source_.fail(elem, "a body can have one inertial only");
+  if (!a.has("pos")) a.fail("pos", "must be 3 numbers");
+  if (!a.has("mass")) a.fail("mass", "must be finite and >= 0");
+  const double mass = a.number("mass", 0);
+  if (mass < 0) a.fail("mass", "must be finite and >= 0");
+  const Posed at = in.frame * pose(a);
+  Sym3d inertia;
+  const auto diagonal = a.numbers("diaginertia", 3, 3), full = a.numbers("fullinertia", 6, 6);
+  if (!diagonal.empty() && !full.empty()) source_.fail(elem, "both diaginertia and fullinertia are given");
+  if (!diagonal.empty()) inertia = {diagonal[0], diagonal[1], diagonal[2]};
+  for (const double d : diagonal) {
+    if (d < 0) a.fail("diaginertia", "each must be finite and >= 0");
+  }
+  if (!full.empty()) {
+    for (const char* name : {"quat", "axisangle", "euler", "xyaxes", "zaxis"}) {
+      if (a.has(name)) a.fail(name, "an orientation is not allowed beside fullinertia");
+    }
+    inertia = {full[0], full[1], full[2], full[3], full[4], full[5]};
+    for (const double value : principal(inertia).values) {
+      if (!(value > 0)) a.fail("fullinertia", "must be a positive definite matrix: xx yy zz xy xz yz");
+    }
+  }
+  inertial = {elem, true, {mass, at.position, rotated(inertia, at.rotation)}};
+}
+
+void Parser::finishTree() {
+  constexpr size_t kPositions[] = {7, 4, 1, 1}, kVelocities[] = {6, 3, 1, 1};
+  // Coordinates are numbered by bodies, wherever among its children a body's joints stand.
+  for (size_t i = 1; i < out_.bodies.size(); ++i) {
+    Body& body = out_.bodies[i];
+    body.moves = !body.joints.empty() || out_.bodies[static_cast<size_t>(body.parent)].moves;
+    body.qposAt = out_.nq;
+    body.qvelAt = out_.nv;
+    for (const Joint& joint : body.joints) {
+      out_.nq += kPositions[static_cast<size_t>(joint.kind)];
+      out_.nv += kVelocities[static_cast<size_t>(joint.kind)];
+    }
+    for (const Geom& geom : body.geoms) {
+      if (body.moves && geom.kind == GeomKind::Plane) {
+        throw FileError(geom.where + ": planes are only allowed in bodies that do not move", out_.fileName);
+      }
+    }
+  }
+}
+
+}  // namespace avbd::mjcf

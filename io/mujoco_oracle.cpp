@@ -1,0 +1,320 @@
+// The reader against MuJoCo itself: bodies, masses, poses and geoms of the same files.
+#include "io/mjcf.h"
+#include "io/mjcf_build.h"
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <random>
+
+namespace avbd {
+namespace {
+
+using namespace mjcf;
+
+struct Loaded {
+  std::unique_ptr<mjModel, void (*)(mjModel*)> model{nullptr, mj_deleteModel};
+  std::unique_ptr<mjData, void (*)(mjData*)> data{nullptr, mj_deleteData};
+  std::string error;
+};
+
+Loaded load(const std::string& file) {
+  Loaded out;
+  char error[1000] = "";
+  out.model.reset(mj_loadXML(file.c_str(), nullptr, error, sizeof error));
+  out.error = error;
+  if (!out.model) return out;
+  out.data.reset(mj_makeData(out.model.get()));
+  mj_kinematics(out.model.get(), out.data.get());
+  return out;
+}
+
+std::string write(const std::string& xml) {
+  const std::string path = testing::TempDir() + "avbd_oracle.xml";
+  std::ofstream(path) << xml;
+  return path;
+}
+
+double scaleOf(const Sym3d& m) { return std::abs(m.xx) + std::abs(m.yy) + std::abs(m.zz) + 1e-12; }
+
+void expectNear(Vec3d a, const mjtNum* b, double tolerance, const std::string& what) {
+  EXPECT_NEAR(a.x, b[0], tolerance) << what;
+  EXPECT_NEAR(a.y, b[1], tolerance) << what;
+  EXPECT_NEAR(a.z, b[2], tolerance) << what;
+}
+
+void expectSameTurn(Quatd q, const mjtNum* m, double tolerance, const std::string& what) {
+  const double cosine = std::abs(q.w * m[0] + q.x * m[1] + q.y * m[2] + q.z * m[3]);
+  EXPECT_NEAR(cosine, 1, tolerance) << what;
+}
+
+void expectSame(const Sym3d& a, const Sym3d& b, double relative, const std::string& what) {
+  const double tolerance = relative * scaleOf(b);
+  EXPECT_NEAR(a.xx, b.xx, tolerance) << what;
+  EXPECT_NEAR(a.yy, b.yy, tolerance) << what;
+  EXPECT_NEAR(a.zz, b.zz, tolerance) << what;
+  EXPECT_NEAR(a.xy, b.xy, tolerance) << what;
+  EXPECT_NEAR(a.xz, b.xz, tolerance) << what;
+  EXPECT_NEAR(a.yz, b.yz, tolerance) << what;
+}
+
+Mass massIn(const mjModel* m, int body) {
+  const mjtNum *p = m->body_ipos + 3 * body, *q = m->body_iquat + 4 * body, *d = m->body_inertia + 3 * body;
+  return {m->body_mass[body], {p[0], p[1], p[2]}, rotated({d[0], d[1], d[2]}, {q[0], q[1], q[2], q[3]})};
+}
+
+void compareGeoms(const Body& body, const mjModel* m, int index) {
+  ASSERT_EQ(static_cast<int>(body.geoms.size()), m->body_geomnum[index]) << body.where;
+  for (size_t k = 0; k < body.geoms.size(); ++k) {
+    const Geom& geom = body.geoms[k];
+    const int g = m->body_geomadr[index] + static_cast<int>(k);
+    EXPECT_EQ(geom.contype, m->geom_contype[g]) << geom.where;
+    EXPECT_EQ(geom.conaffinity, m->geom_conaffinity[g]) << geom.where;
+    EXPECT_EQ(geom.condim, m->geom_condim[g]) << geom.where;
+    EXPECT_EQ(geom.priority, m->geom_priority[g]) << geom.where;
+    EXPECT_EQ(geom.group, m->geom_group[g]) << geom.where;
+    EXPECT_DOUBLE_EQ(geom.friction, m->geom_friction[3 * g]) << geom.where;
+    if (geom.kind == GeomKind::Mesh || geom.kind == GeomKind::HeightField) continue;
+    expectNear(geom.pose.position, m->geom_pos + 3 * g, 1e-9, geom.where);
+    expectSameTurn(geom.pose.rotation, m->geom_quat + 4 * g, 1e-12, geom.where);
+    if (geom.kind != GeomKind::Plane) expectNear(geom.size, m->geom_size + 3 * g, 1e-12, geom.where);
+  }
+}
+
+// Layer one: everything but what meshes would add.
+void compareParsed(const Description& d, const Loaded& mj) {
+  const mjModel* m = mj.model.get();
+  ASSERT_EQ(static_cast<int>(d.bodies.size()), m->nbody);
+  EXPECT_EQ(static_cast<int>(d.nq), m->nq);
+  EXPECT_EQ(static_cast<int>(d.nv), m->nv);
+  EXPECT_DOUBLE_EQ(d.dt, m->opt.timestep);
+  const std::vector<Posed> poses = worldPoses(d, {});
+  for (int i = 0; i < m->nbody; ++i) {
+    const Body& body = d.bodies[static_cast<size_t>(i)];
+    const char* name = mj_id2name(m, mjOBJ_BODY, i);
+    EXPECT_EQ(body.name, name ? name : "");
+    EXPECT_EQ(body.parent, m->body_parentid[i]) << body.where;
+    expectNear(poses[static_cast<size_t>(i)].position, mj.data->xpos + 3 * i, 1e-9, body.where);
+    expectSameTurn(poses[static_cast<size_t>(i)].rotation, mj.data->xquat + 4 * i, 1e-12, body.where);
+    compareGeoms(body, m, i);
+    if (i == 0 || !body.massKnown) continue;
+    const Mass theirs = massIn(m, i);
+    EXPECT_NEAR(body.mass.mass, theirs.mass, 1e-9 * (theirs.mass + 1e-9)) << body.where;
+    if (theirs.mass == 0) continue;
+    expectNear(body.mass.center, m->body_ipos + 3 * i, 1e-9, body.where);
+    expectSame(body.mass.inertia, theirs.inertia, 1e-6, body.where);
+  }
+  for (size_t k = 0; k < d.keys.size(); ++k) {
+    mj_resetDataKeyframe(m, mj.data.get(), static_cast<int>(k));
+    mj_kinematics(m, mj.data.get());
+    if (d.keys[k].qpos.empty()) continue;
+    const std::vector<Posed> at = worldPoses(d, d.keys[k].qpos);
+    for (int i = 1; i < m->nbody; ++i) {
+      expectNear(at[static_cast<size_t>(i)].position, mj.data->xpos + 3 * i, 1e-9, d.keys[k].where);
+      expectSameTurn(at[static_cast<size_t>(i)].rotation, mj.data->xquat + 4 * i, 1e-12, d.keys[k].where);
+    }
+  }
+}
+
+// Layer two: what became a body of ours has the pose, mass, centre and inertia of all that was welded into it.
+void compareModel(const std::string& file, const Description& d, const Loaded& mj) {
+  const mjModel* m = mj.model.get();
+  mj_resetData(m, mj.data.get());
+  mj_kinematics(m, mj.data.get());
+  MjcfOptions options;
+  options.useKeyframe = false;
+  const Model model = readMjcf(file, options);
+  const Clusters clusters = clustersOf(d);
+  size_t next = 0;
+  for (int i = 0; i < m->nbody; ++i) {
+    if (clusters.rootOf[static_cast<size_t>(i)] != i) continue;
+    if (i == 0 && (model.bodies.empty() || model.bodies[0].name != "world")) continue;
+    ASSERT_LT(next, model.bodies.size());
+    const NamedBody& ours = model.bodies[next++];
+    const Pose pose = model.world.pose(ours.id);
+    expectNear(pose.position, mj.data->xpos + 3 * i, 1e-9, ours.name);
+    const Quatd q{pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z};
+    expectSameTurn(q, mj.data->xquat + 4 * i, 1e-6, ours.name);
+    if (model.world.type(ours.id) != BodyType::Dynamic) continue;
+    std::vector<Mass> parts;
+    for (int k = i; k < m->nbody; ++k) {
+      if (clusters.rootOf[static_cast<size_t>(k)] != i) continue;
+      const auto poseOf = [&](int b) {
+        const mjtNum *p = mj.data->xpos + 3 * b, *r = mj.data->xquat + 4 * b;
+        return Posed{{p[0], p[1], p[2]}, {r[0], r[1], r[2], r[3]}};
+      };
+      parts.push_back({m->body_mass[k], {}, {}});
+      const Mass own = massIn(m, k);
+      const Posed rel = inverse(poseOf(i)) * poseOf(k);
+      parts.back() = {own.mass, rel.position + rotate(rel.rotation, own.center), rotated(own.inertia, rel.rotation)};
+    }
+    Mass total;
+    for (const Mass& part : parts) total.mass += part.mass;
+    for (const Mass& part : parts) total.center = total.center + part.center * (part.mass / total.mass);
+    for (const Mass& part : parts) {
+      total.inertia = total.inertia + part.inertia + pointInertia(part.mass, part.center - total.center);
+    }
+    EXPECT_NEAR(model.world.mass(ours.id), total.mass, 1e-5 * total.mass) << ours.name;
+    const Vec3 c = model.world.centerOfMass(ours.id);
+    const mjtNum center[3] = {total.center.x, total.center.y, total.center.z};
+    expectNear({c.x, c.y, c.z}, center, 1e-5 * (1 + length(total.center)), ours.name);
+    const SymMat3 s = model.world.inertia(ours.id);
+    expectSame({s.xx, s.yy, s.zz, s.xy, s.xz, s.yz}, total.inertia, 1e-5, ours.name);
+  }
+  EXPECT_EQ(next, model.bodies.size());
+}
+
+void compare(const std::string& file) {
+  const Loaded mj = load(file);
+  ASSERT_TRUE(mj.model) << file << ": " << mj.error;
+  const Description d = parseFile(file);
+  compareParsed(d, mj);
+  if (!testing::Test::HasFailure()) compareModel(file, d, mj);
+}
+
+class Samples : public testing::TestWithParam<const char*> {};
+
+TEST_P(Samples, GiveTheSameBodies) {
+  const std::string file = std::string("/usr/share/mujoco/model/") + GetParam();
+  if (!std::ifstream(file)) GTEST_SKIP() << "libmujoco-samples is not installed";
+  compare(file);
+}
+
+// Those without composite elements.
+INSTANTIATE_TEST_SUITE_P(Mujoco, Samples,
+                         testing::Values("humanoid/humanoid.xml", "slider_crank/slider_crank.xml",
+                                         "tendon_arm/arm26.xml", "adhesion/active_adhesion.xml",
+                                         "humanoid100/humanoid100.xml", "humanoid/22_humanoids.xml"));
+
+TEST(Oracle, Showcase) { compare(std::string(AVBD_SCENES) + "/showcase.xml"); }
+
+class Snippets : public testing::TestWithParam<const char*> {};
+
+TEST_P(Snippets, GiveTheSameBodies) {
+  compare(write(std::string("<mujoco>") + GetParam() + "</mujoco>"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Mjcf, Snippets,
+    testing::Values(
+        // long shapes from point to point, in all their kinds
+        R"(<worldbody><body><freejoint/>
+          <geom type="capsule" size=".1" fromto="0 0 0 1 2 3"/><geom type="box" size=".1" fromto="1 0 0 1 2 -3"/>
+          <geom type="cylinder" size=".2" fromto="0 0 0 0 0 -1"/><geom type="ellipsoid" size=".3" fromto="0 0 1 0 2 1"/>
+          <geom type="box" size=".1" fromto="0 0 1 0 0 0"/></body></worldbody>)",
+        // every way to say an orientation
+        R"(<compiler angle="radian"/><worldbody>
+          <body euler=".1 .2 .3"><freejoint/><geom size="1"/></body>
+          <body axisangle="1 2 3 .7"><freejoint/><geom type="box" size="1 2 3" quat="2 1 0 1"/></body>
+          <body xyaxes="1 1 0 0 1 1"><freejoint/><geom type="box" size="1 2 3" zaxis="1 -1 2"/></body>
+          <body zaxis="0 0 -2"><freejoint/><geom type="box" size="1 2 3" zaxis="0 0 5"/></body></worldbody>)",
+        R"(<compiler eulerseq="zYx"/><worldbody>
+          <body euler="10 20 30"><freejoint/><geom size="1"/></body></worldbody>)",
+        R"(<compiler eulerseq="XYZ"/><worldbody>
+          <body euler="10 20 30"><freejoint/><geom size="1"/></body></worldbody>)",
+        // classes: nested, inherited, by childclass, overridden by a body below, by the element
+        R"(<default><geom size=".2" density="500"/><default class="a"><geom type="box" size=".1 .2 .3" group="2"/>
+             <default class="b"><geom mass="3" contype="4"/><joint type="ball" pos=".1 0 0"/></default></default>
+             <default class="c"><geom type="capsule" size=".1 .4" friction=".3"/></default></default>
+           <worldbody><body childclass="a"><freejoint/><geom/><geom class="b"/><geom class="main"/>
+             <body childclass="b"><joint/><geom/><body><joint type="hinge"/><geom/><geom class="c" mass="1"/></body></body>
+             <body><geom/><joint class="b" pos="0 1 0"/></body></body></worldbody>)",
+        // a class gives one orientation, the element another
+        R"(<default><geom euler="10 20 30" type="box" size="1 2 3"/><default class="q"><geom quat="1 1 0 0"/></default>
+           </default><worldbody><body><freejoint/><geom zaxis="1 0 0"/><geom class="q"/><geom axisangle="1 0 0 30"/></body>
+           </worldbody>)",
+        // inertial elements
+        R"(<worldbody><body><freejoint/><inertial pos="1 2 3" mass="2" diaginertia="3 4 5" euler="10 20 30"/><geom size="1"/></body>
+           <body><freejoint/><inertial pos="0 0 1" mass="2" fullinertia="3 4 5 .1 .2 .3"/></body></worldbody>)",
+        R"(<compiler inertiafromgeom="true"/><worldbody><body><freejoint/>
+           <inertial pos="1 2 3" mass="2" diaginertia="3 4 5"/><geom size="1"/></body>
+           <body><freejoint/><inertial pos="1 2 3" mass="2" diaginertia="3 4 5"/></body></worldbody>)",
+        R"(<compiler inertiagrouprange="1 2"/><worldbody><body><freejoint/><geom size="1" group="0"/><geom size="2" group="1"/>
+           <geom type="box" pos="1 2 3" size="1 1 1" group="2" euler="1 2 3"/><geom size="1" group="3"/></body></worldbody>)",
+        R"(<compiler balanceinertia="true" boundmass=".5" boundinertia=".01"/><worldbody><body><freejoint/>
+           <inertial pos="0 0 0" mass=".1" diaginertia="1 1 4"/></body><body><freejoint/><geom size=".01"/></body>
+           <body><freejoint/><geom type="box" size=".01 .2 .3" euler="10 20 30" density="100"/></body></worldbody>)",
+        R"(<compiler settotalmass="7"/><worldbody><geom type="box" size="1 1 1"/><body><geom size="1"/></body>
+           <body><freejoint/><geom size=".1" mass="2"/><body><joint/><geom size=".3"/></body></body></worldbody>)",
+        R"(<compiler settotalmass="7" boundmass="3"/><worldbody><body/>
+           <body><freejoint/><geom size=".1" mass="2"/></body></worldbody>)",
+        // bodies within bodies without joints, and joints after children
+        R"(<worldbody><body pos="1 0 0" euler="0 0 30"><geom size=".1"/><body name="t" pos="0 1 0"><geom size=".2"/>
+             <body pos="1 1 1" euler="10 0 0"><joint type="ball" pos="0 .1 0"/><geom size=".1"/>
+               <body pos="0 0 1"><geom type="capsule" size=".1 .2" euler="90 0 0"/></body></body></body></body></worldbody>)",
+        R"(<worldbody><body><geom size=".1"/><body pos="0 0 1"><joint type="ball"/><geom size=".1"/></body><freejoint/></body>
+           </worldbody><keyframe><key qpos="1 2 3 1 0 1 0 .5 .5 .5 .5"/></keyframe>)",
+        // keyframes through all kinds of joints, with references and off-centre anchors
+        R"(<worldbody><body pos="0 0 1" euler="0 30 0"><joint type="slide" axis="1 1 0" ref=".2"/><joint pos="0 .1 .2" axis="0 1 1" ref="20"/>
+             <geom size=".1"/><body pos="0 1 0"><joint type="ball" pos=".1 .2 .3"/><geom size=".1"/>
+               <body pos="0 1 0"><joint type="ball" pos=".1 0 0"/><joint axis="1 0 0"/><geom size=".1"/></body></body></body>
+             <body pos="5 5 5"><freejoint/><geom size=".1"/></body></worldbody>
+           <keyframe><key name="k" qpos=".3 .4 1 2 3 4 .5 .5 -.5 .5 .7 1 2 3 0 0 0 2"/>
+             <key qpos="-.3 1 1 0 0 0 .5 .5 -.5 .5 0 1 2 3 0 0 1 0"/></keyframe>)",
+        R"(<worldbody><body><freejoint/><geom size="1" condim="1" friction=".7 .1" priority="2" contype="6" conaffinity="0"/>
+           <geom size="1" mass="0"/><geom size="1" density="0" condim="6"/></body></worldbody>)",
+        R"(<compiler inertiafromgeom="false"/><worldbody><body><geom size="1"/><body><freejoint/></body></body></worldbody>)"));
+
+// Random trees with random shapes and orientations.
+std::string randomModel(uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<uint32_t>(n)); };
+  const auto number = [&] { return std::to_string((static_cast<int>(random() % 2001) - 1000) / 500.0 + 0.0007); };
+  const auto positive = [&] { return std::to_string(0.05 + (random() % 1000) / 1000.0); };
+  const auto list = [&](int n) {
+    std::string out;
+    for (int i = 0; i < n; ++i) out += number() + " ";
+    return out;
+  };
+  const auto turn = [&]() -> std::string {
+    switch (pick(6)) {
+      case 0: return " quat='" + list(4) + "'";
+      case 1: return " euler='" + list(3) + "'";
+      case 2: return " axisangle='" + list(4) + "'";
+      case 3: return " xyaxes='" + list(6) + "'";
+      case 4: return " zaxis='" + list(3) + "'";
+      default: return "";
+    }
+  };
+  const auto geom = [&]() -> std::string {
+    const char* kinds[] = {"sphere", "capsule", "ellipsoid", "cylinder", "box"};
+    const std::string kind = kinds[pick(5)];
+    const std::string weight = pick(3) == 0 ? " mass='" + positive() + "'" : pick(2) ? " density='" + positive() + "'" : "";
+    if (kind != "sphere" && pick(3) == 0) {
+      return "<geom type='" + kind + "' size='" + positive() + "' fromto='" + list(6) + "'" + weight + "/>";
+    }
+    return "<geom type='" + kind + "' size='" + positive() + " " + positive() + " " + positive() + "' pos='" + list(3) +
+           "'" + turn() + weight + "/>";
+  };
+  std::string out = pick(2) ? "<compiler angle='radian' eulerseq='yXz'/>" : "";
+  out += "<worldbody>";
+  int open = 0;
+  for (int i = 0; i < 12; ++i) {
+    out += "<body pos='" + list(3) + "'" + turn() + ">";
+    const char* joints[] = {"<joint type='ball' pos='1 2 3'/>", "", "<joint axis='1 2 3'/>", "<joint type='slide'/>"};
+    out += open == 0 && pick(2) ? "<freejoint/>" : joints[pick(4)];
+    for (int k = pick(3); k >= 0; --k) out += geom();
+    ++open;
+    while (open > 0 && pick(2)) {
+      out += "</body>";
+      --open;
+    }
+  }
+  while (open-- > 0) out += "</body>";
+  return "<mujoco>" + out + "</worldbody></mujoco>";
+}
+
+TEST(Oracle, RandomModels) {
+  for (uint32_t seed = 0; seed < 200 && !HasFailure(); ++seed) {
+    const std::string xml = randomModel(seed);
+    SCOPED_TRACE(xml);
+    compare(write(xml));
+  }
+}
+
+}  // namespace
+}  // namespace avbd

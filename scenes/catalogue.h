@@ -1,0 +1,34 @@
+// The families of scenes and lines, each from its own file; the catalogue joins them.
+#pragma once
+
+#include "scenes/scene.h"
+
+namespace avbd::scenes {
+
+std::vector<Scene> pileScenes();
+std::vector<Scene> stackScenes();
+std::vector<Scene> chainScenes();
+std::vector<Scene> netScenes();
+
+/// The classic house of five storeys of leaning cards, made in the order that this seed draws.
+Model cardHouse(const Settings& settings, uint32_t seed);
+/// Boxes of half extent 1 and 80 kg, ten high; lengths and masses times the given powers of two.
+struct Scale {
+  float length = 1, mass = 1;
+};
+Model tower10(const Settings& settings, Scale scale = {});
+Model heavyOnLight(const Settings& settings, float mass, Scale scale = {});
+Model slidingBox(const Settings& settings, float mu, Vec3 velocity, Scale scale = {});
+Model pyramid10(const Settings& settings);
+
+std::vector<Line> restLines();
+std::vector<Line> frictionLines();
+std::vector<Line> motionLines();
+std::vector<Line> collisionLines();
+std::vector<Line> scaleLines();
+std::vector<Line> jointLines();
+std::vector<Line> stateLines();
+/// What is not built yet, by name.
+std::vector<Line> skippedLines();
+
+}  // namespace avbd::scenes

@@ -1,0 +1,154 @@
+// Figures of a world from its public getters.
+#include "scenes/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace avbd::scenes {
+namespace {
+
+uint64_t pairKey(uint32_t a, uint32_t b) { return (static_cast<uint64_t>(std::min(a, b)) << 32) | std::max(a, b); }
+
+Vec3d place(std::span<const Pose> poses, uint32_t body, Vec3d point) {
+  return body == kWorldBody ? point : poses[body].position + rotate(poses[body].rotation, point);
+}
+
+template <class Joint>
+void addJoint(Layout& layout, const Joint& joint, const std::unordered_map<uint32_t, uint32_t>& slots) {
+  const auto slot = [&](BodyId id) { return id ? slots.at(id.index) : kWorldBody; };
+  const uint32_t a = slot(joint.bodyA), b = slot(joint.bodyB);
+  layout.anchors.push_back({a, b, joint.frameA.position, joint.frameB.position});
+  if (!joint.collideConnected && a != kWorldBody && b != kWorldBody) layout.separated.insert(pairKey(a, b));
+}
+
+Vec3d crossProduct(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+
+Vec3d spin(const World& world, BodyId id, Vec3d omega) {
+  const Quat q = world.pose(id).rotation;
+  const SymMat3 i = world.inertia(id);
+  const Vec3d w = rotate(conjugate(q), omega);
+  return rotate(q, Vec3d{i.xx * w.x + i.xy * w.y + i.xz * w.z, i.xy * w.x + i.yy * w.y + i.yz * w.z,
+                         i.xz * w.x + i.yz * w.y + i.zz * w.z});
+}
+
+bool finitePose(const Pose& p) {
+  return std::isfinite(p.position.x + p.position.y + p.position.z + p.rotation.w + p.rotation.x + p.rotation.y +
+                       p.rotation.z);
+}
+
+}  // namespace
+
+bool Layout::mayTouch(uint32_t pieceA, uint32_t pieceB) const {
+  const Piece &a = pieces[pieceA], &b = pieces[pieceB];
+  if (!separated.empty() && separated.count(pairKey(a.body, b.body))) return false;
+  const Filter &f = a.filter, &g = b.filter;
+  if (f.group == g.group && f.group != 0) return f.group > 0;
+  const bool ab = (f.category & g.mask) != 0, ba = (g.category & f.mask) != 0;
+  return f.anyMask && g.anyMask ? ab || ba : ab && ba;
+}
+
+Layout layoutOf(const World& world) {
+  Layout layout;
+  layout.bodies = world.bodies();
+  std::unordered_map<uint32_t, uint32_t> slots;
+  for (const BodyId id : layout.bodies) {
+    const uint32_t slot = static_cast<uint32_t>(slots.size());
+    slots[id.index] = slot;
+    layout.dynamic.push_back(world.type(id) == BodyType::Dynamic);
+    for (const ShapeId s : world.shapes(id))
+      layout.pieces.push_back({slot, world.geometry(s), world.localPose(s), world.filter(s)});
+  }
+  for (const JointId id : world.joints()) {
+    if (world.type(id) == JointType::Ball) addJoint(layout, world.ballJoint(id), slots);
+    if (world.type(id) == JointType::Fixed) addJoint(layout, world.fixedJoint(id), slots);
+  }
+  return layout;
+}
+
+std::vector<Pose> posesOf(const World& world, const Layout& layout) {
+  std::vector<Pose> poses(layout.bodies.size());
+  world.getPoses(layout.bodies, poses);
+  return poses;
+}
+
+Penetration penetrationOf(const Layout& layout, std::span<const Pose> poses) {
+  std::vector<PlacedShape> placed;
+  placed.reserve(layout.pieces.size());
+  for (const Layout::Piece& p : layout.pieces)
+    placed.push_back({p.geometry, poses[p.body] * p.pose, p.body, layout.dynamic[p.body] != 0});
+  return measurePenetration(placed, [&](uint32_t a, uint32_t b) { return layout.mayTouch(a, b); });
+}
+
+double jointGapMax(const Layout& layout, std::span<const Pose> poses) {
+  double worst = 0;
+  for (const Layout::Anchors& j : layout.anchors) {
+    const double gap = length(place(poses, j.bodyA, j.a) - place(poses, j.bodyB, j.b));
+    if (!(gap <= worst)) worst = gap;  // a NaN is kept
+  }
+  return worst;
+}
+
+Displacement displacement(const Layout& layout, std::span<const Pose> from, std::span<const Pose> to) {
+  Displacement worst;
+  for (size_t i = 0; i < layout.bodies.size(); ++i) {
+    if (!layout.dynamic[i]) continue;
+    const Vec3d d = to[i].position - from[i].position;
+    const double total = length(d), horizontal = std::hypot(d.x, d.z);
+    if (!(total <= worst.total)) worst.total = total;
+    if (!(horizontal <= worst.horizontal)) worst.horizontal = horizontal;
+  }
+  return worst;
+}
+
+bool isFinite(std::span<const Pose> poses) { return std::all_of(poses.begin(), poses.end(), finitePose); }
+
+bool isFinite(const World& world) {
+  for (const BodyId id : world.bodies()) {
+    const Velocity v = world.velocity(id);
+    if (!finitePose(world.pose(id)) ||
+        !std::isfinite(v.linear.x + v.linear.y + v.linear.z + v.angular.x + v.angular.y + v.angular.z))
+      return false;
+  }
+  return true;
+}
+
+double energy(const World& world) {
+  const Vec3d g = toDouble(world.definition().gravity);
+  double sum = 0;
+  for (const BodyId id : world.bodies()) {
+    if (world.type(id) != BodyType::Dynamic) continue;
+    const Velocity v = world.velocity(id);
+    const Vec3d linear = toDouble(v.linear), angular = toDouble(v.angular);
+    sum += 0.5 * world.mass(id) * dot(linear, linear) + 0.5 * dot(angular, spin(world, id, angular)) -
+           world.mass(id) * dot(g, world.worldCenterOfMass(id));
+  }
+  return sum;
+}
+
+Momentum momentum(const World& world) {
+  Momentum sum;
+  for (const BodyId id : world.bodies()) {
+    if (world.type(id) != BodyType::Dynamic) continue;
+    const Velocity v = world.velocity(id);
+    const Vec3d linear = toDouble(v.linear) * static_cast<double>(world.mass(id));
+    const Vec3d angular = crossProduct(world.worldCenterOfMass(id), linear) + spin(world, id, toDouble(v.angular));
+    sum.linear = sum.linear + linear;
+    sum.angular = sum.angular + angular;
+    sum.linearScale += length(linear);
+    sum.angularScale += length(angular);
+  }
+  return sum;
+}
+
+double speedMax(const World& world) {
+  double worst = 0;
+  for (const BodyId id : world.bodies()) {
+    if (world.type(id) != BodyType::Dynamic) continue;
+    const double speed = length(toDouble(world.velocity(id).linear));
+    if (!(speed <= worst)) worst = speed;
+  }
+  return worst;
+}
+
+}  // namespace avbd::scenes

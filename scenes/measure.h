@@ -1,0 +1,66 @@
+// Figures of a world that do not depend on the engine that moved it.
+#pragma once
+
+#include <avbd/avbd.h>
+
+#include <span>
+#include <unordered_set>
+#include <vector>
+
+#include "scenes/penetration.h"
+
+namespace avbd::scenes {
+
+inline constexpr uint32_t kWorldBody = 0xffffffffu;
+
+/// What of a world does not move: its shapes, joints and which pairs may touch. Bodies are indices into `bodies`.
+struct Layout {
+  struct Piece {
+    uint32_t body = 0;
+    Geometry geometry;
+    Pose pose;  ///< in the body's frame
+    Filter filter;
+  };
+  struct Anchors {
+    uint32_t bodyA = kWorldBody, bodyB = kWorldBody;
+    Vec3d a, b;  ///< in each body's frame; in the world for kWorldBody
+  };
+  std::vector<BodyId> bodies;
+  std::vector<char> dynamic;
+  std::vector<Piece> pieces;
+  std::vector<Anchors> anchors;            ///< of ball and fixed joints
+  std::unordered_set<uint64_t> separated;  ///< pairs of bodies that a joint keeps from colliding
+
+  bool mayTouch(uint32_t pieceA, uint32_t pieceB) const;
+};
+
+Layout layoutOf(const World& world);
+std::vector<Pose> posesOf(const World& world, const Layout& layout);
+
+/// Exact penetration over all pairs of the layout that may touch.
+Penetration penetrationOf(const Layout& layout, std::span<const Pose> poses);
+/// Largest distance between the two anchors of a joint [m].
+double jointGapMax(const Layout& layout, std::span<const Pose> poses);
+
+struct Displacement {
+  double total = 0, horizontal = 0;  ///< the largest of a dynamic body; horizontal leaves y out [m]
+};
+Displacement displacement(const Layout& layout, std::span<const Pose> from, std::span<const Pose> to);
+
+/// All dynamic bodies are finite.
+bool isFinite(const World& world);
+bool isFinite(std::span<const Pose> poses);
+
+/// Kinetic and gravitational energy of the dynamic bodies [J].
+double energy(const World& world);
+/// Sums over dynamic bodies in double from poses and velocities: linear, and angular about the origin; and the sums of
+/// the bodies' magnitudes, which relative errors refer to.
+struct Momentum {
+  Vec3d linear, angular;
+  double linearScale = 0, angularScale = 0;
+};
+Momentum momentum(const World& world);
+/// Largest linear speed of a dynamic body [m/s].
+double speedMax(const World& world);
+
+}  // namespace avbd::scenes

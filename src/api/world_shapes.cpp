@@ -1,0 +1,85 @@
+// Shapes: making and what they carry.
+#include "api/world_impl.h"
+#include "world/bodies.h"
+#include "world/check.h"
+#include "world/mass.h"
+#include "world/pairs.h"
+
+namespace avbd {
+namespace {
+
+ShapeData& shapeOf(WorldData& data, ShapeId id, const char* call) {
+  return data.shapes[slotOf(data, id, Path(call) / "id")];
+}
+
+bool massFollowsShapes(const BodyData& body) { return body.type == BodyType::Dynamic && !body.massGiven; }
+
+}  // namespace
+
+ShapeId World::create(BodyId id, const ShapeDef& def) {
+  WorldData& data = impl_->data;
+  const uint32_t body = slotOf(data, id, Path("World::create") / "body");
+  const Path path("ShapeDef");
+  const ShapeDef shape = checkedShape(path, def, data.bodies[body].type, data.def.lengthUnit);
+  MassProperties mass;
+  mass.mass = 0;
+  if (massFollowsShapes(data.bodies[body])) {
+    std::vector<ShapeDef> all = shapeDefs(data, body);
+    all.push_back(shape);
+    mass = shapesMass(all, data.bodies[body].massScale);
+    if (mass.mass != 0) checkShapesMass(path / "density", mass);
+  }
+  const uint32_t slot = addShape(data, body, shape);
+  if (mass.mass != 0) setMass(data, body, mass);
+  return data.shapeIds.id(slot);
+}
+
+void World::destroy(ShapeId id) {
+  WorldData& data = impl_->data;
+  const Path path("World::destroy");
+  const uint32_t slot = slotOf(data, id, path / "id"), body = data.shapes[slot].body;
+  MassProperties mass;
+  mass.mass = 0;
+  if (massFollowsShapes(data.bodies[body])) {
+    std::vector<ShapeDef> rest = shapeDefs(data, body);
+    const std::vector<uint32_t> slots = shapeSlots(data, body);
+    for (size_t i = 0; i < slots.size(); ++i) {
+      if (slots[i] != slot) continue;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      break;
+    }
+    mass = shapesMass(rest, data.bodies[body].massScale);
+    if (mass.mass != 0) checkShapesMass(path / "id", mass);
+  }
+  erasePairsOfShape(data, slot);
+  removeShape(data, slot);
+  // A body never becomes massless: without shapes that have mass it keeps what it had.
+  if (mass.mass != 0) setMass(data, body, mass);
+  placeShapes(data, body);
+}
+
+BodyId World::body(ShapeId id) const { return impl_->data.bodyIds.id(shapeOf(impl_->data, id, "World::body").body); }
+Geometry World::geometry(ShapeId id) const { return toGeometry(shapeOf(impl_->data, id, "World::geometry").geom); }
+Pose World::localPose(ShapeId id) const { return shapeOf(impl_->data, id, "World::localPose").local; }
+Material World::material(ShapeId id) const { return shapeOf(impl_->data, id, "World::material").material; }
+
+void World::setMaterial(ShapeId id, const Material& material) {
+  ShapeData& shape = shapeOf(impl_->data, id, "World::setMaterial");
+  const Path path("World::setMaterial");
+  checkMaterial(path / "material", material);
+  shape.material = material;
+}
+
+Filter World::filter(ShapeId id) const { return shapeOf(impl_->data, id, "World::filter").filter; }
+
+void World::setFilter(ShapeId id, const Filter& filter) {
+  const uint32_t slot = slotOf(impl_->data, id, Path("World::setFilter") / "id");
+  impl_->data.shapes[slot].filter = filter;
+  erasePairsOfShape(impl_->data, slot);
+  markUnpaired(impl_->data, slot);
+}
+
+uint64_t World::userData(ShapeId id) const { return shapeOf(impl_->data, id, "World::userData").userData; }
+void World::setUserData(ShapeId id, uint64_t data) { shapeOf(impl_->data, id, "World::setUserData").userData = data; }
+
+}  // namespace avbd

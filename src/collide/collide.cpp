@@ -1,0 +1,62 @@
+// Two shapes -> manifold: which function serves which pair.
+//
+//              | Sphere            | Capsule              | Box               | HalfSpace
+//   -----------+-------------------+----------------------+-------------------+-----------------------
+//   Sphere     | SphereSphere      | SphereCapsule        | SphereBox         | SphereHalfSpace
+//   Capsule    |                   | CapsuleCapsule       | CapsuleBox        | CapsuleHalfSpace
+//   Box        |                   |                      | BoxBox            | BoxHalfSpace
+//   HalfSpace  |                   |                      |                   | nothing: neither moves
+//
+// Below the diagonal the two shapes change places and the normal turns round. On the diagonal an order that depends
+// only on how the two lie relative to each other does the same, so that collide(a, b) and collide(b, a) agree in every
+// bit. In that order the lower shape comes first where it can: of two equally good reference faces a stack then
+// always takes the lower body's.
+#include "collide/collide.h"
+
+#include "collide/collide_pairs.h"
+
+namespace avbd {
+namespace {
+
+constexpr PairFunction kTable[4][4] = {
+    {collideSphereSphere, collideSphereCapsule, collideSphereBox, collideSphereHalfSpace},
+    {nullptr, collideCapsuleCapsule, collideCapsuleBox, collideCapsuleHalfSpace},
+    {nullptr, nullptr, collideBoxBox, collideBoxHalfSpace},
+    {nullptr, nullptr, nullptr, nullptr},
+};
+
+/// Which of two shapes of the same kind at the same place comes first; any rule does.
+bool comesLater(const ShapeGeom& a, Quat qa, const ShapeGeom& b, Quat qb) {
+  const float left[] = {a.radius, a.extent.x, a.extent.y, a.extent.z, qa.w, qa.x, qa.y, qa.z};
+  const float right[] = {b.radius, b.extent.x, b.extent.y, b.extent.z, qb.w, qb.x, qb.y, qb.z};
+  for (int i = 0; i < 8; ++i) {
+    if (left[i] != right[i]) return left[i] > right[i];
+  }
+  return false;
+}
+
+bool changePlaces(const ShapeGeom& a, const NearPose& poseA, const ShapeGeom& b, const NearPose& poseB) {
+  if (a.type != b.type) return a.type > b.type;
+  const Vec3 d = poseB.p - poseA.p;
+  // Not along any direction in which scenes are usually built, lest neighbours flicker.
+  const float along = d.x * 0.3125f + d.y + d.z * 0.171875f;
+  if (along != 0) return along < 0;
+  if (d.x != 0) return d.x < 0;
+  if (d.z != 0) return d.z < 0;
+  return comesLater(a, poseA.q, b, poseB.q);
+}
+
+}  // namespace
+
+void collide(const ShapeGeom& a, const NearPose& poseA, const ShapeGeom& b, const NearPose& poseB, float margin,
+             Manifold& out) {
+  out.count = 0;
+  const bool swapped = changePlaces(a, poseA, b, poseB);
+  const ShapeGeom &first = swapped ? b : a, &second = swapped ? a : b;
+  const PairFunction function = kTable[static_cast<int>(first.type)][static_cast<int>(second.type)];
+  if (!function) return;
+  function({first, swapped ? poseB : poseA, second, swapped ? poseA : poseB, margin, swapped}, out);
+  if (swapped) out.normal = -out.normal;
+}
+
+}  // namespace avbd

@@ -1,0 +1,95 @@
+// A batch: some whole islands, laid out for the solver. The unit of work; batches share nothing.
+//
+// Body rows. Each array of body rows holds 8 floats a body, (lin xyz, -, ang xyz, -) or as said. The rows of a batch
+// are its dynamic bodies, island by island, then one row for everything static, then kinematic bodies; rows are padded
+// to a multiple of 16. Pairs name their bodies by row within the batch.
+// Tiles. Constants and multipliers of 16 pairs are the transpose of their family's struct (lane/tile.h). Unused lanes
+// name the static row on both sides and have stiffness 0.
+#pragma once
+
+#include <cstdint>
+
+#include "avbd/rows/family.h"
+#include "lane/tile.h"
+
+namespace avbd {
+
+inline constexpr int kHessianRow = 24;  ///< floats a body: Sym6, padded
+
+
+/// What the products with H need of a pair: its stiffness about the reference point and the arms to it.
+template <class R>
+struct PairOp {
+  rows::V3<R> armA, armB;
+  rows::Sym6<R> stiffness;
+};
+
+/// The same of a row over four nodes: J and k.
+template <class R>
+struct NodeOp {
+  rows::V3<R> lin[4];
+  R k;
+};
+
+/// Pairs of one family in tiles of 16, with the rows of their bodies.
+template <template <class> class Family>
+struct PairTiles {
+  Tile<Family>* tile = nullptr;
+  const uint32_t* a = nullptr;  ///< 16 a tile
+  const uint32_t* b = nullptr;
+  uint32_t tiles = 0;
+};
+
+struct TetTiles {
+  Tile<rows::TetVolume>* tile = nullptr;
+  const uint32_t* node[4] = {};
+  Tile<NodeOp>* op = nullptr;
+  uint32_t tiles = 0;
+};
+
+/// One island within a batch.
+struct IslandRange {
+  uint32_t begin = 0, end = 0;  ///< body rows
+  bool hasTree = false;
+  bool coupled = false;   ///< holds rows that the preconditioner does not solve exactly
+  bool floating = false;  ///< touches nothing static or kinematic
+};
+
+struct BatchView {
+  uint32_t bodies = 0;  ///< dynamic rows
+  uint32_t rows = 0;    ///< all rows, a multiple of 16
+  uint32_t islands = 0;
+  const IslandRange* island = nullptr;
+
+  // Body rows.
+  float* d = nullptr;              ///< displacement since the start of the step
+  const float* target = nullptr;   ///< y: where the body would go alone
+  const float* mass = nullptr;     ///< (m, I xx yy zz xy xz yz, -) / h^2, I in world axes
+  const float* invMass = nullptr;  ///< (1/m, I^-1 ..., -); 0 for static and kinematic
+  float* diagonal = nullptr;       ///< as mass, with the geometric stiffness of joints
+  float* gradient = nullptr;
+  float* hessian = nullptr;        ///< kHessianRow floats a body
+  Tile<rows::Sym6>* inverse = nullptr;  ///< of 16 bodies: their inverse blocks
+  float *x = nullptr, *r = nullptr, *z = nullptr, *p = nullptr, *q = nullptr;
+
+  PairTiles<rows::Contact> contacts;
+  PairTiles<rows::BallJoint> balls;   ///< those that no tree holds
+  PairTiles<rows::FixedJoint> fixed;
+  TetTiles tets;
+  Tile<PairOp>* op = nullptr;  ///< contacts, then balls, then fixed
+
+  const uint32_t* locked = nullptr;  ///< rows of bodies with locked axes
+  const uint8_t* locks = nullptr;
+  uint32_t lockedCount = 0;
+};
+
+/// What a step asks of the solver.
+struct SolveSettings {
+  float h = 0;              ///< [s] of a substep
+  int iterations = 4;
+  int krylovIterations = 8;
+  float contactLeak = 1;    ///< share of a contact multiplier that survives an iteration
+  float floorFactor = 10;   ///< c: stiffness floor is c / (w h^2)
+};
+
+}  // namespace avbd

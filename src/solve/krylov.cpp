@@ -1,0 +1,129 @@
+// Conjugate gradients over the islands of a batch.
+//
+// With the forces and weights of an outer iteration frozen, H x = -gradient is solved for all islands of the batch in
+// step, each with its own coefficients. Islands with exact trees run projected conjugate gradients: the first
+// application of the preconditioner meets the joints' violations, all later ones stay in the null space of J, and the
+// residual gives up what the joints carry (r -= J^T mu) so that it does not drown in rounding.
+#include "solve/krylov.h"
+
+#include "solve/locks.h"
+
+namespace avbd {
+
+namespace {
+
+constexpr float kRelativeResidual = 1e-9f;  ///< of r . M^-1 r, squared norm: an island below it is solved
+
+class Krylov {
+ public:
+  Krylov(const BatchView& view, const Backend& backend, Forest* forest, KrylovScratch& scratch)
+      : v_(view), k_(backend), forest_(forest), s_(scratch) {
+    s_.rz.assign(v_.islands, 0);
+    s_.limit.assign(v_.islands, 0);
+    s_.active.assign(v_.islands, 1);
+  }
+
+  void solve(int iterations) {
+    begin();
+    for (int i = 0; i < iterations && anyActive(); ++i) {
+      k_.multiply(v_);
+      clearLocked(v_, v_.q);
+      for (uint32_t n = 0; n < v_.islands; ++n) advance(n);
+      if (i + 1 == iterations) break;
+      precondition(false);
+      for (uint32_t n = 0; n < v_.islands; ++n) turn(n);
+    }
+  }
+
+ private:
+  void precondition(bool violated) {
+    k_.precondition(v_);
+    if (forest_) forest_->solve(v_, violated);
+  }
+
+  void begin() {
+    for (uint32_t i = 0; i < 8 * v_.rows; ++i) {
+      v_.x[i] = v_.p[i] = v_.z[i] = 0;
+      v_.r[i] = i < 8 * v_.bodies ? -v_.gradient[i] : 0.0f;
+    }
+    if (forest_) meetViolations();
+    precondition(false);
+    for (uint32_t n = 0; n < v_.islands; ++n) {
+      const IslandRange& island = v_.island[n];
+      s_.rz[n] = k_.dot(v_.r, v_.z, island.begin, island.end);
+      s_.limit[n] = kRelativeResidual * s_.rz[n];
+      s_.active[n] = s_.rz[n] > 0 && !(island.hasTree && !island.coupled);
+      if (s_.active[n]) k_.scaleAdd(v_.p, v_.z, 0, island.begin, island.end);
+    }
+  }
+
+  /// x = the preconditioner's answer on islands with trees; exact, and final, where nothing else couples bodies.
+  void meetViolations() {
+    precondition(true);
+    for (uint32_t n = 0; n < v_.islands; ++n) {
+      const IslandRange& island = v_.island[n];
+      if (!island.hasTree) continue;
+      k_.scaleAdd(v_.p, v_.z, 0, island.begin, island.end);
+      k_.scaleAdd(v_.x, v_.z, 0, island.begin, island.end);
+    }
+    k_.multiply(v_);
+    clearLocked(v_, v_.q);
+    for (uint32_t n = 0; n < v_.islands; ++n)
+      if (v_.island[n].hasTree) k_.addScaled(v_.r, v_.q, -1, v_.island[n].begin, v_.island[n].end);
+  }
+
+  bool anyActive() const {
+    for (uint32_t n = 0; n < v_.islands; ++n)
+      if (s_.active[n]) return true;
+    return false;
+  }
+
+  void advance(uint32_t n) {
+    if (!s_.active[n]) return;
+    const IslandRange& island = v_.island[n];
+    const float pq = k_.dot(v_.p, v_.q, island.begin, island.end);
+    if (!(pq > 0)) {
+      s_.active[n] = 0;
+      return;
+    }
+    const float a = s_.rz[n] / pq;
+    k_.addScaled(v_.x, v_.p, a, island.begin, island.end);
+    k_.addScaled(v_.r, v_.q, -a, island.begin, island.end);
+  }
+
+  void turn(uint32_t n) {
+    if (!s_.active[n]) return;
+    const IslandRange& island = v_.island[n];
+    const float rz = k_.dot(v_.r, v_.z, island.begin, island.end);
+    if (!(rz > s_.limit[n])) {
+      s_.active[n] = 0;
+      return;
+    }
+    k_.scaleAdd(v_.p, v_.z, rz / s_.rz[n], island.begin, island.end);
+    s_.rz[n] = rz;
+  }
+
+  const BatchView& v_;
+  const Backend& k_;
+  Forest* forest_;
+  KrylovScratch& s_;
+};
+
+}  // namespace
+
+void solveKrylov(const BatchView& view, const Backend& backend, const SolveSettings& settings, Forest* forest,
+                 KrylovScratch& scratch) {
+  for (int i = 0; i < settings.iterations; ++i) {
+    backend.beginIteration(view);
+    backend.stampRows(view, settings, i > 0);
+    if (forest) forest->stamp(view);
+    if (view.lockedCount) applyLocks(view);
+    backend.factor(view);
+    if (forest) forest->factor(view);
+    Krylov(view, backend, forest, scratch).solve(settings.krylovIterations);
+    backend.addScaled(view.d, view.x, 1, 0, view.bodies);
+    if (forest) forest->updateMultipliers();
+  }
+}
+
+}  // namespace avbd

@@ -1,0 +1,19 @@
+// Primal solver: conjugate gradients over each island of a batch, preconditioned by exact blocks and exact trees.
+#pragma once
+
+#include "solve/backend.h"
+#include "solve/tree.h"
+
+namespace avbd {
+
+/// What one batch is solved with; memory is kept between steps.
+struct KrylovScratch {
+  std::vector<float> rz, limit;
+  std::vector<uint8_t> active;
+};
+
+/// Runs all outer iterations: d and the multipliers of the batch move to the end of the step. `forest` may be null.
+void solveKrylov(const BatchView& view, const Backend& backend, const SolveSettings& settings, Forest* forest,
+                 KrylovScratch& scratch);
+
+}  // namespace avbd

@@ -1,0 +1,54 @@
+// Exact trees: bodies that joints hold together in a tree are solved as one block, the joints' multipliers being
+// unknowns of their own. Linear time, leaf to root and back (after Baraff 1996).
+//
+// For a body c with its joint to the parent p, with S = Jc Hc^-1 Jc^T:
+//   leaf to root  Hp += Jp^T S^-1 Jp,   rp -= Jp^T S^-1 (Jc Hc^-1 rc - b)
+//   root to leaf  mu = S^-1 (Jc Hc^-1 rc - b + Jp xp),   xc = Hc^-1 (rc - Jc^T mu)
+// which solves H x + J^T mu = r, J x = b for block-diagonal H.
+#pragma once
+
+#include <vector>
+
+#include "solve/batch.h"
+
+namespace avbd {
+
+/// A joint of a forest and what the factorisation keeps of it.
+struct TreeJoint {
+  uint32_t rowA = 0, rowB = 0;  ///< body rows; the static row for the world
+  uint32_t slot = 0;            ///< of the world's joint
+  bool angular = false;         ///< fixed joint: six rows; ball joint: three, in fixed.ball
+  bool childIsA = true;
+  rows::FixedJoint<float> rows;
+  int m = 3;
+  float violation[6], mu[6], total[6];
+  float jc[6][6], jp[6][6];  ///< rows of J
+  float u[6][6];             ///< Hc^-1 Jc^T, a column of it per row here
+  float sFactor[6][6];       ///< LDL^T of S, inverse pivots on the diagonal
+  float w[6][6];             ///< S^-1 Jp
+};
+
+struct TreeNode {
+  uint32_t row = 0;
+  int32_t parent = -1;  ///< node
+  int32_t joint = -1;   ///< to the parent or to the world; -1 for a free root
+  float h[6][6];        ///< block, then its LDL^T
+  float y[6];           ///< right side on the way down
+};
+
+/// All trees of a batch; parents stand before children.
+class Forest {
+ public:
+  std::vector<TreeNode> nodes;
+  std::vector<TreeJoint> joints;
+
+  /// Adds the joints' forces and geometric stiffness to gradient, hessian and diagonal, and keeps J and C.
+  void stamp(const BatchView& view);
+  void factor(const BatchView& view);
+  /// Solves for the rows z of its bodies from r. `violated`: J z = -C, else J z = 0. Takes J^T mu off r.
+  void solve(const BatchView& view, bool violated);
+  /// Multipliers of the joints += those found since stamp().
+  void updateMultipliers();
+};
+
+}  // namespace avbd

@@ -1,0 +1,48 @@
+// The whole frame on one page.
+#include <chrono>
+
+#include "step/settings.h"
+#include "step/step.h"
+#include "step/step_data.h"
+
+namespace avbd {
+
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void run(Stage stage, void (*f)(WorldData&, StepData&), WorldData& world, StepData& step) {
+  const double start = now();
+  f(world, step);
+  world.report.seconds[static_cast<size_t>(stage)] += now() - start;
+}
+
+}  // namespace
+
+Stepper::Stepper() : data_(std::make_unique<StepData>()) {}
+Stepper::~Stepper() = default;
+
+void Stepper::step(WorldData& world, float dt) {
+  StepData& step = *data_;
+  world.report.seconds = {};
+  chooseSettings(world, step, dt / static_cast<float>(world.def.substeps));
+  for (int i = 0; i < world.def.substeps; ++i) {
+    run(Stage::Pairs, findPairs, world, step);
+    run(Stage::Contacts, findContacts, world, step);
+    run(Stage::Islands, findIslands, world, step);
+    run(Stage::Colors, colorBlocks, world, step);
+    run(Stage::BeginRows, beginRows, world, step);
+    run(Stage::Predict, predict, world, step);
+    run(Stage::SolveBlocks, solveBlocks, world, step);
+    run(Stage::UpdateRows, updateRows, world, step);
+    run(Stage::Velocities, updateVelocities, world, step);
+    run(Stage::Publish, publish, world, step);
+  }
+  world.bodyIds.forEach([&](uint32_t slot) { world.bodies[slot].force = world.bodies[slot].torque = {}; });
+  world.time += dt;
+  ++world.report.step;
+}
+
+}  // namespace avbd

@@ -1,0 +1,140 @@
+// Islands: dynamic bodies that touch or are jointed. Numbered by their lowest body slot; within an island bodies,
+// pairs and joints stand in the order of their slots, so that nothing far away changes a sum.
+#include <algorithm>
+
+#include "step/step_data.h"
+
+namespace avbd {
+
+namespace {
+
+bool isDynamic(const WorldData& world, uint32_t slot) {
+  return slot != kNone && world.bodies[slot].type == BodyType::Dynamic;
+}
+
+uint32_t find(std::vector<uint32_t>& parent, uint32_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/// The lower slot becomes the root.
+void join(std::vector<uint32_t>& parent, uint32_t a, uint32_t b) {
+  a = find(parent, a), b = find(parent, b);
+  if (a < b) parent[b] = a;
+  if (b < a) parent[a] = b;
+}
+
+void joinBodies(const WorldData& world, StepData& step) {
+  step.parent.resize(world.bodies.size());
+  for (uint32_t i = 0; i < step.parent.size(); ++i) step.parent[i] = i;
+  for (const PairData& pair : world.pairs)
+    if (pair.pointCount > 0 && isDynamic(world, pair.bodyA) && isDynamic(world, pair.bodyB))
+      join(step.parent, pair.bodyA, pair.bodyB);
+  world.jointIds.forEach([&](uint32_t slot) {
+    const JointData& joint = world.joints[slot];
+    uint32_t first = kNone;
+    for (const uint32_t body : joint.body) {
+      if (!isDynamic(world, body)) continue;
+      if (first != kNone) join(step.parent, first, body);
+      first = body;
+    }
+  });
+}
+
+/// Numbers the islands and lists their bodies, both in ascending order.
+void listBodies(const WorldData& world, StepData& step) {
+  step.islandOf.assign(world.bodies.size(), kNone);
+  step.islands.clear();
+  step.kinematic.clear();
+  world.bodyIds.forEach([&](uint32_t slot) {
+    if (world.bodies[slot].type == BodyType::Kinematic) step.kinematic.push_back(slot);
+    if (!isDynamic(world, slot)) return;
+    const uint32_t root = find(step.parent, slot);
+    if (root == slot) {
+      step.islandOf[slot] = static_cast<uint32_t>(step.islands.size());
+      step.islands.emplace_back();
+    }
+    step.islandOf[slot] = step.islandOf[root];
+    ++step.islands[step.islandOf[slot]].bodyCount;
+  });
+  uint32_t begin = 0;
+  for (Island& island : step.islands) {
+    island.bodyBegin = begin;
+    begin += island.bodyCount;
+    island.bodyCount = 0;
+  }
+  step.order.resize(begin);
+  world.bodyIds.forEach([&](uint32_t slot) {
+    if (step.islandOf[slot] == kNone) return;
+    Island& island = step.islands[step.islandOf[slot]];
+    step.order[island.bodyBegin + island.bodyCount++] = slot;
+  });
+}
+
+uint32_t islandOfPair(const StepData& step, const PairData& pair) {
+  const uint32_t a = step.islandOf[pair.bodyA];
+  return a != kNone ? a : step.islandOf[pair.bodyB];
+}
+
+uint32_t islandOfJoint(const StepData& step, const JointData& joint) {
+  for (const uint32_t body : joint.body)
+    if (body != kNone && step.islandOf[body] != kNone) return step.islandOf[body];
+  return kNone;
+}
+
+void listPairs(const WorldData& world, StepData& step) {
+  for (const PairData& pair : world.pairs) {
+    if (pair.pointCount == 0) continue;
+    Island& island = step.islands[islandOfPair(step, pair)];
+    ++island.pairCount;
+    if (!isDynamic(world, pair.bodyA) || !isDynamic(world, pair.bodyB)) island.floating = false;
+  }
+  uint32_t begin = 0;
+  for (Island& island : step.islands) {
+    island.pairBegin = begin;
+    begin += island.pairCount;
+    island.pairCount = 0;
+  }
+  step.islandPairs.resize(begin);
+  for (uint32_t i = 0; i < world.pairs.size(); ++i) {
+    if (world.pairs[i].pointCount == 0) continue;
+    Island& island = step.islands[islandOfPair(step, world.pairs[i])];
+    step.islandPairs[island.pairBegin + island.pairCount++] = i;
+  }
+}
+
+void listJoints(const WorldData& world, StepData& step) {
+  world.jointIds.forEach([&](uint32_t slot) {
+    const JointData& joint = world.joints[slot];
+    Island& island = step.islands[islandOfJoint(step, joint)];
+    ++island.jointCount;
+    const int bodies = joint.type == JointType::TetVolume ? 4 : 2;
+    for (int i = 0; i < bodies; ++i)
+      if (!isDynamic(world, joint.body[i])) island.floating = false;
+  });
+  uint32_t begin = 0;
+  for (Island& island : step.islands) {
+    island.jointBegin = begin;
+    begin += island.jointCount;
+    island.jointCount = 0;
+  }
+  step.islandJoints.resize(begin);
+  world.jointIds.forEach([&](uint32_t slot) {
+    Island& island = step.islands[islandOfJoint(step, world.joints[slot])];
+    step.islandJoints[island.jointBegin + island.jointCount++] = slot;
+  });
+}
+
+}  // namespace
+
+void findIslands(WorldData& world, StepData& step) {
+  joinBodies(world, step);
+  listBodies(world, step);
+  listPairs(world, step);
+  listJoints(world, step);
+  world.report.bodies = static_cast<uint32_t>(step.order.size());
+  world.report.islands = static_cast<uint32_t>(step.islands.size());
+  world.report.joints = static_cast<uint32_t>(step.islandJoints.size());
+}
+
+}  // namespace avbd

@@ -1,0 +1,162 @@
+// Layout of the batches.
+#include <algorithm>
+
+#include "step/begin_rows.h"
+
+namespace avbd {
+
+namespace {
+
+constexpr uint32_t kBatchBodies = 64;  ///< islands are added to a batch until it holds so many bodies
+
+uint32_t roundUp(uint32_t n) { return (n + kTile - 1) / kTile * kTile; }
+
+/// Fills the last tile with lanes that name the static row.
+void padLanes(std::vector<uint32_t>& lanes, uint32_t value) {
+  while (lanes.size() % kTile != 0) lanes.push_back(value);
+}
+
+void clearLanes(StepData& step) {
+  for (auto* lanes : {step.contactRow, step.ballRow, step.fixedRow})
+    for (int side = 0; side < 2; ++side) lanes[side].clear();
+  for (auto& lanes : step.tetRow) lanes.clear();
+  step.contactPair.clear(), step.ballJoint.clear(), step.fixedJoint.clear(), step.tetJoint.clear();
+  step.batches.clear(), step.ranges.clear(), step.lockedRows.clear(), step.locks.clear();
+  step.forestCount = 0;
+}
+
+void addBodies(const WorldData& world, StepData& step, BatchRange& batch) {
+  for (uint32_t n = 0; n < batch.islandCount; ++n) {
+    const Island& island = step.islands[batch.islandBegin + n];
+    IslandRange range;
+    range.begin = batch.bodies;
+    for (uint32_t i = 0; i < island.bodyCount; ++i) {
+      const uint32_t slot = step.order[island.bodyBegin + i];
+      if (world.bodies[slot].locks) {
+        step.lockedRows.push_back(batch.bodies);
+        step.locks.push_back(world.bodies[slot].locks);
+        ++batch.lockedCount;
+      }
+      step.rowOf[slot] = batch.bodies++;
+    }
+    range.end = batch.bodies;
+    range.floating = island.floating;
+    range.coupled = island.pairCount > 0;
+    step.ranges.push_back(range);
+  }
+  batch.rows = batch.bodies + 1;  // and the static row
+}
+
+void addPairs(const WorldData& world, StepData& step, BatchRange& batch) {
+  batch.contactTile = static_cast<uint32_t>(step.contactPair.size()) / kTile;
+  for (uint32_t n = 0; n < batch.islandCount; ++n) {
+    const Island& island = step.islands[batch.islandBegin + n];
+    for (uint32_t i = 0; i < island.pairCount; ++i) {
+      const uint32_t pair = step.islandPairs[island.pairBegin + i];
+      step.contactPair.push_back(pair);
+      step.contactRow[0].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyA));
+      step.contactRow[1].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyB));
+    }
+  }
+  padLanes(step.contactPair, kNone);
+  for (auto& lanes : step.contactRow) padLanes(lanes, batch.bodies);
+  batch.contactTiles = static_cast<uint32_t>(step.contactPair.size()) / kTile - batch.contactTile;
+}
+
+void addJoints(const WorldData& world, StepData& step, BatchRange& batch) {
+  batch.ballTile = static_cast<uint32_t>(step.ballJoint.size()) / kTile;
+  batch.fixedTile = static_cast<uint32_t>(step.fixedJoint.size()) / kTile;
+  batch.tetTile = static_cast<uint32_t>(step.tetJoint.size()) / kTile;
+  plantForest(world, step, batch);
+  padLanes(step.ballJoint, kNone), padLanes(step.fixedJoint, kNone), padLanes(step.tetJoint, kNone);
+  for (auto& lanes : step.ballRow) padLanes(lanes, batch.bodies);
+  for (auto& lanes : step.fixedRow) padLanes(lanes, batch.bodies);
+  for (auto& lanes : step.tetRow) padLanes(lanes, batch.bodies);
+  batch.ballTiles = static_cast<uint32_t>(step.ballJoint.size()) / kTile - batch.ballTile;
+  batch.fixedTiles = static_cast<uint32_t>(step.fixedJoint.size()) / kTile - batch.fixedTile;
+  batch.tetTiles = static_cast<uint32_t>(step.tetJoint.size()) / kTile - batch.tetTile;
+}
+
+void resizeRows(StepData& step, uint32_t rows) {
+  for (auto* array : {&step.d, &step.target, &step.mass, &step.invMass, &step.diagonal, &step.gradient, &step.x, &step.r,
+                      &step.z, &step.p, &step.q})
+    array->assign(size_t(8) * rows, 0.0f);
+  step.hessian.assign(size_t(kHessianRow) * rows, 0.0f);
+  step.inverse.resize(rows / kTile);
+}
+
+void resizeTiles(StepData& step) {
+  step.contacts.resize(step.contactPair.size() / kTile);
+  step.balls.resize(step.ballJoint.size() / kTile);
+  step.fixed.resize(step.fixedJoint.size() / kTile);
+  step.tets.resize(step.tetJoint.size() / kTile);
+  step.op.resize(step.contacts.size() + step.balls.size() + step.fixed.size());
+  step.tetOp.resize(step.tets.size());
+}
+
+}  // namespace
+
+uint32_t rowInBatch(const WorldData& world, StepData& step, BatchRange& batch, uint32_t body) {
+  if (body == kNone || world.bodies[body].type == BodyType::Static) return batch.bodies;
+  if (world.bodies[body].type == BodyType::Dynamic) return step.rowOf[body];
+  if (step.kinematicBatch[body] != step.batches.size()) {
+    step.kinematicBatch[body] = static_cast<uint32_t>(step.batches.size());
+    step.rowOf[body] = batch.rows++;
+    step.kinematicRows.push_back({body, batch.rowBegin + step.rowOf[body]});
+  }
+  return step.rowOf[body];
+}
+
+void layOutBatches(const WorldData& world, StepData& step) {
+  clearLanes(step);
+  step.rowOf.assign(world.bodies.size(), kNone);
+  step.kinematicBatch.assign(world.bodies.size(), kNone);
+  step.kinematicRows.clear();
+  uint32_t rows = 0, island = 0;
+  while (island < step.islands.size()) {
+    BatchRange batch;
+    batch.islandBegin = island;
+    batch.orderBegin = step.islands[island].bodyBegin;
+    batch.rowBegin = rows;
+    batch.lockedBegin = static_cast<uint32_t>(step.lockedRows.size());
+    for (uint32_t bodies = 0; island < step.islands.size() && bodies < kBatchBodies; ++island, ++batch.islandCount)
+      bodies += step.islands[island].bodyCount;
+    addBodies(world, step, batch);
+    addPairs(world, step, batch);
+    addJoints(world, step, batch);
+    batch.rows = roundUp(batch.rows);
+    rows += batch.rows;
+    step.batches.push_back(batch);
+  }
+  resizeRows(step, rows);
+  resizeTiles(step);
+}
+
+BatchView StepData::view(size_t index) {
+  const BatchRange& b = batches[index];
+  BatchView v;
+  v.bodies = b.bodies, v.rows = b.rows, v.islands = b.islandCount;
+  v.island = ranges.data() + b.islandBegin;
+  const size_t at = size_t(8) * b.rowBegin;
+  v.d = d.data() + at, v.target = target.data() + at, v.mass = mass.data() + at, v.invMass = invMass.data() + at;
+  v.diagonal = diagonal.data() + at, v.gradient = gradient.data() + at;
+  v.hessian = hessian.data() + size_t(kHessianRow) * b.rowBegin;
+  v.inverse = inverse.data() + b.rowBegin / kTile;
+  v.x = x.data() + at, v.r = r.data() + at, v.z = z.data() + at, v.p = p.data() + at, v.q = q.data() + at;
+  v.contacts = {contacts.data() + b.contactTile, contactRow[0].data() + b.contactTile * kTile,
+                contactRow[1].data() + b.contactTile * kTile, b.contactTiles};
+  v.balls = {balls.data() + b.ballTile, ballRow[0].data() + b.ballTile * kTile,
+             ballRow[1].data() + b.ballTile * kTile, b.ballTiles};
+  v.fixed = {fixed.data() + b.fixedTile, fixedRow[0].data() + b.fixedTile * kTile,
+             fixedRow[1].data() + b.fixedTile * kTile, b.fixedTiles};
+  v.op = op.data() + b.contactTile + b.ballTile + b.fixedTile;
+  v.tets.tile = tets.data() + b.tetTile;
+  v.tets.op = tetOp.data() + b.tetTile;
+  v.tets.tiles = b.tetTiles;
+  for (int i = 0; i < 4; ++i) v.tets.node[i] = tetRow[i].data() + b.tetTile * kTile;
+  v.locked = lockedRows.data() + b.lockedBegin, v.locks = locks.data() + b.lockedBegin;
+  v.lockedCount = b.lockedCount;
+  return v;
+}
+
+}  // namespace avbd

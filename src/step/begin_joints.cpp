@@ -1,0 +1,114 @@
+// Joint rows: constants and remembered multipliers, in exact trees and in tiles.
+#include <algorithm>
+
+#include "step/begin_rows.h"
+
+namespace avbd {
+
+namespace {
+
+constexpr float kJointFactor = 1000;  ///< rho = this / (w h^2) for rows that no tree solves
+
+struct Side {
+  rows::V3<float> arm{0, 0, 0};    ///< world axes; zero of the world
+  Vec3d anchor;                    ///< world
+  rows::Q4<float> axes{1, 0, 0, 0};  ///< joint frame to world
+  float invMass = 0, turning = 0;  ///< turning: mean inverse inertia across the arm
+  rows::Sym3<float> invInertia{};
+};
+
+Side sideOf(const WorldData& world, const JointData& joint, int i) {
+  Side side;
+  if (joint.body[i] == kNone) {
+    side.anchor = joint.frame[i].position;
+    side.axes = toRow(joint.frame[i].rotation);
+    return side;
+  }
+  const BodyData& body = world.bodies[joint.body[i]];
+  const Vec3 arm = rotate(body.rotation, joint.anchor[i]);
+  side.anchor = body.position + arm;
+  side.axes = toRow(body.rotation * joint.axes[i]);
+  side.arm = toRow(arm);
+  if (body.type != BodyType::Dynamic) return side;
+  side.invMass = 1 / body.mass;
+  side.invInertia = rotated(toRow(body.invInertia), toRow(body.rotation));
+  const float trace = side.invInertia.xx + side.invInertia.yy + side.invInertia.zz;
+  const float size = dot(side.arm, side.arm);
+  side.turning = 0.5f * (trace - (size > 0 ? dot(side.arm, side.invInertia * side.arm) / size : trace / 3));
+  return side;
+}
+
+/// How far the arms in J go from the start of the step to its end: by the joint's own stability number
+/// chi = h^2 |F| |r| w, whose limit for the symplectic choice (0) is 4.
+float armBlend(const StepData& step, const Side& a, const Side& b, float force) {
+  const float chi = step.h * step.h * force *
+                    std::max(rows::length(a.arm) * a.turning, rows::length(b.arm) * b.turning);
+  return 0.5f * std::clamp((chi - 1) / 3, 0.0f, 1.0f);
+}
+
+rows::FixedJoint<float> jointRows(const WorldData& world, const StepData& step, const JointData& joint) {
+  const Side a = sideOf(world, joint, 0), b = sideOf(world, joint, 1);
+  rows::FixedJoint<float> rows{};
+  rows.ball.rA = a.arm, rows.ball.rB = b.arm;
+  rows.ball.bias = toRow(a.anchor - b.anchor) * (1 - step.alpha);
+  rows.ball.lambda = {joint.lambda[0], joint.lambda[1], joint.lambda[2]};
+  rows.ball.tau = armBlend(step, a, b, length(rows.ball.lambda));
+  const float w = a.invMass + b.invMass + a.turning * dot(a.arm, a.arm) + b.turning * dot(b.arm, b.arm);
+  rows.ball.k = kJointFactor / (w * step.h * step.h);
+  if (joint.type != JointType::Fixed) return rows;
+  rows.q0 = a.axes * conjugate(b.axes);
+  rows.held = logQuat(rows.q0) * step.alpha;
+  rows.lambda = {joint.lambda[3], joint.lambda[4], joint.lambda[5]};
+  const rows::Sym3<float> turning = a.invInertia + b.invInertia;
+  rows.kAngular = kJointFactor * 3 / ((turning.xx + turning.yy + turning.zz) * step.h * step.h);
+  return rows;
+}
+
+rows::TetVolume<float> tetRows(const WorldData& world, const StepData& step, const JointData& joint) {
+  const auto edge = [&](int i) {
+    return toRow(world.bodies[joint.body[i]].position - world.bodies[joint.body[0]].position);
+  };
+  rows::TetVolume<float> tet{};
+  tet.ab = edge(1), tet.ac = edge(2), tet.ad = edge(3);
+  const rows::V3<float> jb = cross(tet.ac, tet.ad), jc = cross(tet.ad, tet.ab), jd = cross(tet.ab, tet.ac);
+  const rows::V3<float> j[4] = {-(jb + jc + jd), jb, jc, jd};
+  float w = 0;
+  for (int i = 0; i < 4; ++i) {
+    const BodyData& body = world.bodies[joint.body[i]];
+    if (body.type == BodyType::Dynamic) w += dot(j[i], j[i]) / (36 * body.mass);
+  }
+  const float volume = dot(tet.ab, jb) / 6;
+  const float rho = w > 0 ? kJointFactor / (w * step.h * step.h) : 0;
+  const bool hard = joint.stiffness <= 0;
+  tet.restVolume = hard ? joint.restVolume + step.alpha * (volume - joint.restVolume) : joint.restVolume;
+  tet.k = hard ? rho : joint.stiffness * rho / (joint.stiffness + rho);
+  tet.s = hard ? 1 : joint.stiffness / (joint.stiffness + rho);
+  tet.lambda = joint.lambda[0];
+  return tet;
+}
+
+}  // namespace
+
+void fillJoints(const WorldData& world, StepData& step) {
+  for (size_t lane = 0; lane < step.ballJoint.size(); ++lane) {
+    rows::BallJoint<float> rows{};
+    if (step.ballJoint[lane] != kNone) rows = jointRows(world, step, world.joints[step.ballJoint[lane]]).ball;
+    step.balls[lane / kTile].set(lane % kTile, rows);
+  }
+  for (size_t lane = 0; lane < step.fixedJoint.size(); ++lane) {
+    rows::FixedJoint<float> rows{};
+    rows.q0 = {1, 0, 0, 0};
+    if (step.fixedJoint[lane] != kNone) rows = jointRows(world, step, world.joints[step.fixedJoint[lane]]);
+    step.fixed[lane / kTile].set(lane % kTile, rows);
+  }
+  for (size_t lane = 0; lane < step.tetJoint.size(); ++lane) {
+    rows::TetVolume<float> rows{};
+    if (step.tetJoint[lane] != kNone) rows = tetRows(world, step, world.joints[step.tetJoint[lane]]);
+    step.tets[lane / kTile].set(lane % kTile, rows);
+  }
+  for (uint32_t i = 0; i < step.forestCount; ++i)
+    for (TreeJoint& joint : step.forests[i].joints)
+      joint.rows = jointRows(world, step, world.joints[joint.slot]);
+}
+
+}  // namespace avbd

@@ -1,0 +1,29 @@
+// Parts of the stage 50_begin_rows.
+#pragma once
+
+#include "avbd/rows/math.h"
+#include "step/step_data.h"
+
+namespace avbd {
+
+inline rows::V3<float> toRow(Vec3 v) { return {v.x, v.y, v.z}; }
+inline rows::V3<float> toRow(Vec3d v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+inline rows::Q4<float> toRow(Quat q) { return {q.w, q.x, q.y, q.z}; }
+inline rows::Sym3<float> toRow(const SymMat3& s) { return {s.xx, s.yy, s.zz, s.xy, s.xz, s.yz}; }
+inline Vec3 fromRow(rows::V3<float> v) { return {v.x, v.y, v.z}; }
+inline Quat fromRow(rows::Q4<float> q) { return {q.w, q.x, q.y, q.z}; }
+
+/// Cuts the islands into batches and gives every body its row, every pair and joint its lane.
+void layOutBatches(const WorldData& world, StepData& step);
+void fillBodies(const WorldData& world, StepData& step);
+void fillContacts(const WorldData& world, StepData& step);
+void fillJoints(const WorldData& world, StepData& step);
+
+/// Body row that a joint or pair names in its batch.
+uint32_t rowInBatch(const WorldData& world, StepData& step, BatchRange& batch, uint32_t body);
+/// Chooses which joints of a batch its exact trees hold; the others get lanes of their own.
+void plantForest(const WorldData& world, StepData& step, BatchRange& batch);
+
+}  // namespace avbd

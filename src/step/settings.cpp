@@ -1,0 +1,35 @@
+// Constants of the method, rescaled so that the behaviour per second does not depend on step or iterations.
+#include "step/settings.h"
+
+#include <algorithm>
+
+namespace avbd {
+
+namespace {
+
+constexpr float kCorrection = 0.05f;  ///< 1 - alpha: share of a violation corrected in a reference step
+constexpr float kLeak = 0.02f;        ///< share of a contact multiplier that each reference iteration forgets
+constexpr float kSlop = 0.002f;       ///< of the length unit
+constexpr float kLoadDepth = 0.005f;  ///< of the length unit: without gravity
+constexpr int kKrylovIterations = 8;
+
+}  // namespace
+
+void chooseSettings(const WorldData& world, StepData& step, float h) {
+  const WorldDef& def = world.def;
+  const float steps = h / kReferenceStep;
+  step.h = h;
+  step.alpha = 1 - std::min(1.0f, kCorrection * steps);
+  step.slop = kSlop * def.lengthUnit;
+  const float fall = 2 * length(def.gravity) * h * h;
+  step.loadDepth = fall > 0 ? fall : kLoadDepth * def.lengthUnit * steps * steps;
+  step.solve.h = h;
+  step.solve.iterations = def.iterations;
+  step.solve.krylovIterations = def.krylovIterations > 0 ? def.krylovIterations : kKrylovIterations;
+  step.solve.contactLeak =
+      1 - std::min(0.5f, kLeak * steps * static_cast<float>(kReferenceIterations) / static_cast<float>(def.iterations));
+  const int width = def.simdWidth > 0 ? def.simdWidth : widestLane();
+  step.backend = &backend(width);
+}
+
+}  // namespace avbd

@@ -1,0 +1,24 @@
+// The step: advances a world by dt.
+#pragma once
+
+#include <memory>
+
+#include "world/world_data.h"
+
+namespace avbd {
+
+struct StepData;
+
+/// Owns the memory that a step works in; nothing in it survives a step.
+class Stepper {
+ public:
+  Stepper();
+  ~Stepper();
+  /// Advances `world` by dt [s]. Throws NonFiniteError before poses or velocities have changed.
+  void step(WorldData& world, float dt);
+
+ private:
+  std::unique_ptr<StepData> data_;
+};
+
+}  // namespace avbd

@@ -1,0 +1,110 @@
+// What the stages of a step hand to each other.
+#pragma once
+
+#include <vector>
+
+#include "base/aligned.h"
+#include "solve/backend.h"
+#include "solve/krylov.h"
+#include "world/world_data.h"
+
+namespace avbd {
+
+/// An island: bodies that touch or are jointed, directly or through others. Static and kinematic bodies join nothing.
+struct Island {
+  uint32_t bodyBegin = 0, bodyCount = 0;    ///< in StepData::order
+  uint32_t pairBegin = 0, pairCount = 0;    ///< in StepData::islandPairs
+  uint32_t jointBegin = 0, jointCount = 0;  ///< in StepData::islandJoints
+  bool floating = true;
+};
+
+/// Where the pieces of a batch lie in the arrays of StepData.
+struct BatchRange {
+  uint32_t islandBegin = 0, islandCount = 0;
+  uint32_t orderBegin = 0, bodies = 0;
+  uint32_t rowBegin = 0, rows = 0;
+  uint32_t contactTile = 0, contactTiles = 0;
+  uint32_t ballTile = 0, ballTiles = 0;
+  uint32_t fixedTile = 0, fixedTiles = 0;
+  uint32_t tetTile = 0, tetTiles = 0;
+  uint32_t lockedBegin = 0, lockedCount = 0;
+  uint32_t forest = kNone;  ///< in StepData::forests
+};
+
+struct StepData {
+  float h = 0;         ///< [s] of a substep
+  float alpha = 0;     ///< share of a violation at the start of the step that a row keeps
+  float slop = 0;      ///< [m] depth at which contacts come to rest
+  float loadDepth = 0; ///< [m] at which a loaded row holds its load
+  SolveSettings solve;
+  const Backend* backend = nullptr;
+
+  // 10_pairs
+  std::vector<uint32_t> moved;      ///< shapes that left their fat bounds
+  std::vector<uint64_t> newKeys;
+  std::vector<PairData> mergedPairs;
+
+  // 30_islands
+  std::vector<uint32_t> parent;       ///< union-find, by body slot
+  std::vector<uint32_t> islandOf;     ///< by body slot
+  std::vector<uint32_t> order;        ///< dynamic body slots, island by island
+  std::vector<Island> islands;
+  std::vector<uint32_t> islandPairs;  ///< pairs with points, island by island, by key
+  std::vector<uint32_t> islandJoints; ///< joint slots
+  std::vector<BatchRange> batches;
+  std::vector<uint32_t> rowOf;        ///< by body slot: row within its batch; static bodies: kNone
+  std::vector<uint32_t> kinematic;    ///< slots
+  std::vector<uint32_t> kinematicBatch;  ///< by body slot: the last batch that gave it a row
+  struct KinematicRow {
+    uint32_t body, row;
+  };
+  std::vector<KinematicRow> kinematicRows;  ///< rows count over all batches
+
+  std::vector<Vec3> carried;          ///< by body slot: force of contacts and joints in the last step [N]
+
+  // Body rows.
+  std::vector<IslandRange> ranges;
+  AlignedVector<float> d, target, mass, invMass, diagonal, gradient, hessian, x, r, z, p, q;
+  AlignedVector<Tile<rows::Sym6>> inverse;
+  std::vector<uint32_t> lockedRows;
+  std::vector<uint8_t> locks;
+
+  // Tiles.
+  AlignedVector<Tile<rows::Contact>> contacts;
+  AlignedVector<Tile<rows::BallJoint>> balls;
+  AlignedVector<Tile<rows::FixedJoint>> fixed;
+  AlignedVector<Tile<rows::TetVolume>> tets;
+  std::vector<uint32_t> contactRow[2], ballRow[2], fixedRow[2], tetRow[4];
+  std::vector<uint32_t> contactPair, ballJoint, fixedJoint, tetJoint;  ///< by lane: pair or joint slot, kNone
+  AlignedVector<Tile<PairOp>> op;
+  AlignedVector<Tile<NodeOp>> tetOp;
+  std::vector<Forest> forests;  ///< the first forestCount are in use
+  uint32_t forestCount = 0;
+  KrylovScratch krylov;
+
+  // 70_velocities: the state at the end of the step, by StepData::order; written back by 90_publish
+  struct EndState {
+    Vec3d position;
+    Quat rotation;
+    Vec3 linearVelocity, angularVelocity;
+  };
+  std::vector<EndState> end;
+
+  BatchView view(size_t batch);
+};
+
+inline constexpr float kSpeculative = 0.005f;  ///< of the length unit: margin within which contacts are found
+
+// The stages, in order.
+void findPairs(WorldData& world, StepData& step);
+void findContacts(WorldData& world, StepData& step);
+void findIslands(WorldData& world, StepData& step);
+void colorBlocks(WorldData& world, StepData& step);
+void beginRows(WorldData& world, StepData& step);
+void predict(WorldData& world, StepData& step);
+void solveBlocks(WorldData& world, StepData& step);
+void updateRows(WorldData& world, StepData& step);
+void updateVelocities(WorldData& world, StepData& step);
+void publish(WorldData& world, StepData& step);
+
+}  // namespace avbd

@@ -1,0 +1,44 @@
+// Settings of a world (check.h).
+#include "world/check.h"
+#include "world/limits.h"
+
+namespace avbd {
+
+bool simdWidthRuns(int width) {
+  if (width == 1 || width == 4) return true;
+#if defined(__x86_64__)
+  if (width == 8) return __builtin_cpu_supports("avx2");
+  if (width == 16) {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512dq");
+  }
+  return false;
+#else
+  return width == 8 || width == 16;
+#endif
+}
+
+void checkWorld(const WorldDef& def) {
+  const Path path("WorldDef");
+  check(path / "lengthUnit", def.lengthUnit, Range{kMinUnit, kMaxUnit});
+  const double unit = def.lengthUnit;
+  check(path / "gravity", def.gravity, symmetric(kMaxAcceleration * unit));
+  check(path / "workers", def.workers, Range{1, 1024});
+  check(path / "iterations", def.iterations, Range{1, 1000});
+  check(path / "substeps", def.substeps, Range{1, 1000});
+  check(path / "restitutionThreshold", def.restitutionThreshold, notNegative(kMaxSpeed * unit));
+  check(path / "maxDepenetrationSpeed", def.maxDepenetrationSpeed, notNegative(kMaxSpeed * unit));
+  check(path / "krylovIterations", def.krylovIterations, Range{0, 1000});
+  if (def.primalSolver != PrimalSolver::Krylov && def.primalSolver != PrimalSolver::BlockSweep) {
+    (path / "primalSolver").refuse(toText(static_cast<int>(def.primalSolver)), "must be Krylov or BlockSweep");
+  }
+  const int width = def.simdWidth;
+  if (width != 0 && width != 1 && width != 4 && width != 8 && width != 16) {
+    (path / "simdWidth").refuse(toText(width), "must be 0, 1, 4, 8 or 16");
+  }
+  if (width != 0 && !simdWidthRuns(width)) {
+    (path / "simdWidth").refuse(toText(width), "must be a width that this processor runs");
+  }
+}
+
+}  // namespace avbd

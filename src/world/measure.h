@@ -1,0 +1,20 @@
+// What is read off a world's state: energy, momenta, joint errors, contacts. In double; nothing here feeds back.
+#pragma once
+
+#include "world/world_data.h"
+
+namespace avbd {
+
+double kineticEnergyOf(const BodyData& body);
+double totalKineticEnergy(const WorldData& data);
+Vec3d totalMomentum(const WorldData& data);
+Vec3d totalAngularMomentum(const WorldData& data, Vec3d about);
+
+/// Distance of the anchors [m], or |C| [m^3] of a TetVolume.
+double jointGap(const WorldData& data, const JointData& joint);
+/// Angle between the two frames of a FixedJoint; 0 of others.
+double jointAngleError(const WorldData& data, const JointData& joint);
+
+Contact contactOf(const WorldData& data, const PairData& pair);
+
+}  // namespace avbd

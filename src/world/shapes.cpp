@@ -1,0 +1,99 @@
+// Shapes of bodies between steps (bodies.h).
+#include <algorithm>
+
+#include "world/bodies.h"
+#include "world/limits.h"
+#include "world/pairs.h"
+
+namespace avbd {
+namespace {
+
+// Distance of the shape's farthest point from the centre of mass; a HalfSpace has none.
+float reach(const ShapeGeom& geom, const NearPose& pose) {
+  if (geom.type == ShapeType::Sphere) return length(pose.p) + geom.radius;
+  if (geom.type == ShapeType::Capsule) {
+    const Vec3 half = rotate(pose.q, geom.extent);
+    return std::max(length(pose.p + half), length(pose.p - half)) + geom.radius;
+  }
+  if (geom.type == ShapeType::HalfSpace) return 0;
+  // The corner on the side on which the box lies.
+  const Vec3 local = rotate(conjugate(pose.q), pose.p);
+  return length(
+      Vec3{std::abs(local.x) + geom.extent.x, std::abs(local.y) + geom.extent.y, std::abs(local.z) + geom.extent.z});
+}
+
+float halfThickness(const ShapeGeom& geom) {
+  if (geom.type == ShapeType::Box) return std::min({geom.extent.x, geom.extent.y, geom.extent.z});
+  return geom.radius;
+}
+
+void placeShape(BodyData& body, ShapeData& shape) {
+  shape.toMass = {toFloat(shape.local.position - toDouble(body.center)), shape.local.rotation};
+  if (shape.geom.type == ShapeType::HalfSpace) return;
+  const float thickness = halfThickness(shape.geom);
+  body.minExtent = body.radius > 0 ? std::min(body.minExtent, thickness) : thickness;
+  body.radius = std::max(body.radius, reach(shape.geom, shape.toMass));
+}
+
+}  // namespace
+
+void placeShapes(WorldData& data, uint32_t slot) {
+  BodyData& body = data.bodies[slot];
+  body.radius = body.minExtent = 0;
+  for (uint32_t s = body.firstShape; s != kNone; s = data.shapes[s].next) placeShape(body, data.shapes[s]);
+}
+
+Aabb fatBounds(const WorldData& data, const ShapeData& shape) {
+  return bounds(shape.geom, bodyPose(data.bodies[shape.body]) * shape.local, kFatMargin * data.def.lengthUnit);
+}
+
+uint32_t addShape(WorldData& data, uint32_t bodySlot, const ShapeDef& def) {
+  const uint32_t slot = data.shapeIds.slot(data.shapeIds.create());
+  if (slot >= data.shapes.size()) data.shapes.resize(slot + 1);
+  BodyData& body = data.bodies[bodySlot];
+  ShapeData& shape = data.shapes[slot];
+  shape = {};
+  shape.geom = toShapeGeom(def.geometry);
+  shape.local = def.pose;
+  shape.material = def.material;
+  shape.filter = def.filter;
+  shape.density = def.density;
+  shape.userData = def.userData;
+  shape.body = bodySlot;
+  shape.next = body.firstShape;
+  body.firstShape = slot;
+  placeShape(body, shape);
+  shape.proxy = data.tree.insert(fatBounds(data, shape), slot);
+  markUnpaired(data, slot);
+  return slot;
+}
+
+void removeShape(WorldData& data, uint32_t slot) {
+  ShapeData& shape = data.shapes[slot];
+  const uint32_t body = shape.body;
+  unmarkUnpaired(data, slot);
+  data.tree.remove(shape.proxy);
+  uint32_t* link = &data.bodies[body].firstShape;
+  while (*link != slot) link = &data.shapes[*link].next;
+  *link = shape.next;
+  shape = {};
+  data.shapeIds.destroy(data.shapeIds.id(slot));
+}
+
+std::vector<uint32_t> shapeSlots(const WorldData& data, uint32_t body) {
+  std::vector<uint32_t> slots;
+  for (uint32_t s = data.bodies[body].firstShape; s != kNone; s = data.shapes[s].next) slots.push_back(s);
+  std::reverse(slots.begin(), slots.end());
+  return slots;
+}
+
+std::vector<ShapeDef> shapeDefs(const WorldData& data, uint32_t body) {
+  std::vector<ShapeDef> defs;
+  for (const uint32_t slot : shapeSlots(data, body)) {
+    const ShapeData& shape = data.shapes[slot];
+    defs.push_back({.geometry = toGeometry(shape.geom), .pose = shape.local, .density = shape.density});
+  }
+  return defs;
+}
+
+}  // namespace avbd

@@ -1,0 +1,64 @@
+// Field by field, so that no padding is hashed (state_hash.h).
+#include "world/state_hash.h"
+
+#include "base/hash.h"
+
+namespace avbd {
+namespace {
+
+void add(Hash64& hash, const BodyData& body) {
+  hash.value(body.position);
+  hash.value(body.rotation);
+  hash.value(body.linearVelocity);
+  hash.value(body.angularVelocity);
+  hash.value(body.force);
+  hash.value(body.torque);
+}
+
+void add(Hash64& hash, const PointMemory& point) {
+  hash.value(point.feature);
+  hash.value(point.lambda);
+  hash.value(point.anchorA);
+  hash.value(point.anchorB);
+  hash.value(point.approach);
+  hash.value(point.sticks);
+  hash.value(point.age);
+}
+
+void add(Hash64& hash, const PairData& pair) {
+  hash.value(pair.key());
+  hash.value(pair.normal);
+  hash.value(pair.t1);
+  hash.value(pair.t2);
+  hash.value(pair.pointCount);
+  for (int i = 0; i < pair.pointCount; ++i) add(hash, pair.points[i]);
+}
+
+template <class Tag>
+void addIds(Hash64& hash, const HandlePool<Tag>& pool) {
+  hash.value(static_cast<uint64_t>(pool.count()));
+  hash.value(static_cast<uint64_t>(pool.slotCount()));
+  for (uint32_t slot = 0; slot < pool.slotCount(); ++slot) hash.value(pool.id(slot).generation);
+}
+
+}  // namespace
+
+uint64_t stateHash(const WorldData& data) {
+  Hash64 hash;
+  addIds(hash, data.bodyIds);
+  addIds(hash, data.shapeIds);
+  addIds(hash, data.jointIds);
+  data.bodyIds.forEach([&](uint32_t slot) {
+    hash.value(slot);
+    add(hash, data.bodies[slot]);
+  });
+  data.jointIds.forEach([&](uint32_t slot) {
+    hash.value(slot);
+    hash.value(data.joints[slot].lambda);
+  });
+  hash.value(static_cast<uint64_t>(data.pairs.size()));
+  for (const PairData& pair : data.pairs) add(hash, pair);
+  return hash.digest();
+}
+
+}  // namespace avbd

@@ -1,0 +1,11 @@
+// One number over everything that the next step's result depends on and that steps change.
+#pragma once
+
+#include "world/world_data.h"
+
+namespace avbd {
+
+/// Poses, velocities, pending forces, multipliers and contact memories of everything alive, with the ids.
+uint64_t stateHash(const WorldData& data);
+
+}  // namespace avbd

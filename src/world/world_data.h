@@ -1,0 +1,106 @@
+// What exists between steps: bodies, shapes, joints, contact pairs. Plain data in vectors, links by slot, so that a
+// snapshot is a copy.
+#pragma once
+
+#include <avbd/world.h>
+
+#include <vector>
+
+#include "base/handle_pool.h"
+#include "geom/manifold.h"
+#include "geom/shape.h"
+#include "geom/tree.h"
+
+namespace avbd {
+
+inline constexpr uint32_t kNone = 0xffffffffu;  ///< no slot
+
+struct BodyData {
+  Vec3d position;  ///< of the centre of mass
+  Quat rotation;   ///< body to world
+  Vec3 linearVelocity, angularVelocity;
+  Vec3 force, torque;           ///< given by the user for the next step
+  Vec3 center;                  ///< centre of mass in the body's frame
+  float mass = 0;               ///< 0 for static and kinematic
+  SymMat3 inertia, invInertia;  ///< about the centre, body axes
+  float linearDamping = 0, angularDamping = 0, gravityScale = 1;
+  float maxLinearSpeed = 0, maxAngularSpeed = 0;
+  float radius = 0;             ///< of a ball about the centre of mass that holds all bounded shapes
+  float minExtent = 0;          ///< smallest half thickness of its bounded shapes
+  float massScale = 0;          ///< BodyDef.mass: mass that the shapes are scaled to; 0 keeps their densities'
+  uint32_t firstShape = kNone;  ///< the newest; ShapeData.next leads to older ones
+  uint32_t firstJoint = kNone;  ///< JointData.next[k] leads on, where JointData.body[k] is this body
+  BodyType type = BodyType::Dynamic;
+  uint8_t locks = 0;
+  bool massGiven = false;  ///< massProperties came from the user
+  uint64_t userData = 0;
+};
+
+struct ShapeData {
+  ShapeGeom geom;
+  Pose local;       ///< in the body's frame
+  NearPose toMass;  ///< in the body's axes, relative to its centre of mass
+  Material material;
+  Filter filter;
+  float density = 0;
+  uint32_t body = kNone;
+  uint32_t next = kNone;  ///< next shape of the body
+  int32_t proxy = -1;     ///< in the tree
+  uint64_t userData = 0;
+};
+
+struct JointData {
+  JointType type = JointType::Ball;
+  bool collideConnected = false;
+  uint32_t body[4] = {kNone, kNone, kNone, kNone};  ///< slots; kNone is the world
+  uint32_t next[4] = {kNone, kNone, kNone, kNone};  ///< next joint of body[k]
+  Pose frame[2];                                    ///< as the user gave them
+  Vec3 anchor[2];                                   ///< relative to the centre of mass, body axes; of the world: unused
+  Quat axes[2];                                     ///< joint frame in the body; of the world: in the world
+  float restVolume = 0, stiffness = 0;
+  float lambda[6] = {};  ///< multipliers [N, N m] along world axes, of body A
+  JointReaction reaction;
+  uint64_t userData = 0;
+};
+
+/// What a contact point remembers.
+struct PointMemory {
+  uint32_t feature = 0;
+  Vec3 lambda;            ///< force of the last step [N]: along the normal (>= 0), t1, t2
+  Vec3 anchorA, anchorB;  ///< where it stuck: relative to the centre of mass, body axes
+  float approach = 0;     ///< [m/s] speed of approach that restitution has still to answer
+  uint8_t sticks = 0;     ///< it did not slip in the last step
+  uint8_t age = 0;        ///< steps since it was found, saturating
+};
+
+/// Two shapes whose bounds overlap, with their contact points.
+struct PairData {
+  uint32_t shapeA = 0, shapeB = 0;  ///< slots, A < B
+  uint32_t bodyA = 0, bodyB = 0;    ///< slots
+  Vec3d origin;                     ///< A's centre of mass at the start of the step
+  Manifold manifold;                ///< positions relative to origin
+  Vec3 normal, t1, t2;              ///< basis that the memories are given in
+  PointMemory points[kMaxManifoldPoints];
+  int32_t pointCount = 0;                                   ///< of `points`: those of the last step
+  float staticFriction = 0, friction = 0, restitution = 0;  ///< combined
+  uint64_t key() const { return uint64_t(shapeA) << 32 | shapeB; }
+};
+
+struct WorldData {
+  WorldDef def;
+  HandlePool<BodyTag> bodyIds;
+  HandlePool<ShapeTag> shapeIds;
+  HandlePool<JointTag> jointIds;
+  std::vector<BodyData> bodies;  ///< by slot
+  std::vector<ShapeData> shapes;
+  std::vector<JointData> joints;
+  std::vector<PairData> pairs;          ///< ordered by key
+  std::vector<uint64_t> excludedPairs;  ///< body slots, low << 32 | high, sorted, each as often as it was excluded
+  DynamicTree tree;                     ///< fat bounds of all shapes; user data is the shape's slot
+  /// Shapes whose pairs have to be found anew (made, moved by the user, refiltered): slots, ascending, each once.
+  std::vector<uint32_t> unpaired;
+  double time = 0;
+  StepReport report;
+};
+
+}  // namespace avbd

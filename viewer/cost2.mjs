@@ -1,0 +1,22 @@
+import {chromium} from 'playwright-core';
+import {readFileSync, readdirSync} from 'node:fs';
+import {mkdtempSync} from 'node:fs';
+const dir=mkdtempSync('/tmp/vt/prof');
+const b=await chromium.launchPersistentContext(dir,{executablePath:'/usr/bin/chromium',viewport:{width:1280,height:800},colorScheme:'dark',args:['--headless','--no-sandbox','--use-angle=swiftshader','--enable-unsafe-swiftshader']});
+const cpu=()=>{let t=0;for(const d of readdirSync('/proc')){ if(!/^\d+$/.test(d)) continue; try{const c=readFileSync(`/proc/${d}/cmdline`,'latin1'); if(!c.includes('--type=gpu-process')||!c.includes(dir)) continue; const s=readFileSync(`/proc/${d}/stat`,'latin1').split(') ')[1].split(' '); t+=Number(s[11])+Number(s[12]);}catch{}} return t*10;};
+const p=await b.newPage();
+p.on('console',m=>console.log(m.text()));
+await p.goto('file://'+process.argv[2]);
+await p.waitForFunction(()=>window.avbdViewer);
+const measure=async(label)=>{
+ await p.waitForTimeout(1000);
+ await p.evaluate(()=>{window.n=0;window.on=1;const f=()=>{++window.n;requestAnimationFrame(f)};if(!window.started){window.started=1;requestAnimationFrame(f)}});
+ const c0=cpu(),t0=Date.now(); const n0=await p.evaluate(()=>window.n); await p.waitForTimeout(3500); const n1=await p.evaluate(()=>window.n); const c1=cpu(); console.log(label,'frames',n1-n0,'wall',((Date.now()-t0)/(n1-n0)).toFixed(0),'gpu cpu ms/frame',((c1-c0)/(n1-n0)).toFixed(0)); };
+await p.evaluate(()=>{avbdViewer.setQuality('3');avbdViewer.play()});
+await measure('q3');
+await p.evaluate(()=>{document.querySelector('.overlay').style.display='none'}); await measure('no overlay');
+await p.evaluate(()=>{debugViewer.stage.planes.forEach(x=>x.mesh.visible=false)}); await measure('no ground');
+await p.evaluate(()=>{debugViewer.bodies.group.visible=false}); await measure('no bodies');
+await p.evaluate(()=>{debugViewer.stage.sky.visible=false}); await measure('no sky');
+await p.evaluate(()=>{debugViewer.interface.showTime=()=>{}}); await measure('no ui update');
+await b.close();

@@ -1,0 +1,348 @@
+// Writes a recording as one HTML file: the bundled viewer, a JSON head, and the frames in base64.
+#include "viewer/page.h"
+
+#include "viewer/encode.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace avbd {
+
+/// dist/viewer.js as the build found it.
+std::string_view viewerScript();
+
+namespace {
+
+using page::base64Of;
+using page::Bytes;
+using page::jsonText;
+using page::Range;
+
+constexpr uint32_t kWorld = 0xffffffffu;
+/// A script element holds this much at most: browsers limit the length of one text.
+constexpr size_t kChunkBytes = 6u << 20;
+
+[[noreturn]] void refuse(const std::string& field, const std::string& value, const std::string& range) {
+  throw std::invalid_argument("Recording." + field + " = " + value + ": " + range);
+}
+
+bool finite(Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+std::string element(const char* list, size_t index, const char* field) {
+  return std::string(list) + "[" + std::to_string(index) + "]." + field;
+}
+
+void checkFrames(const Recording& r) {
+  if (r.frames.empty()) refuse("frames", "0", "must hold at least one frame");
+  double before = -std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < r.frames.size(); ++i) {
+    const RecordedFrame& f = r.frames[i];
+    if (!(f.time >= before) || !std::isfinite(f.time)) {
+      refuse(element("frames", i, "time"), std::to_string(f.time), "must be finite and not before the last frame");
+    }
+    before = f.time;
+    if (f.poses.size() != r.bodies.size()) {
+      refuse(element("frames", i, "poses"), std::to_string(f.poses.size()),
+             "must hold a pose for each of the " + std::to_string(r.bodies.size()) + " bodies");
+    }
+  }
+}
+
+void check(const Recording& r) {
+  const float up = length(r.up);
+  if (!(up > 0) || !std::isfinite(up)) refuse("up", "zero or not finite", "must be a direction");
+  const std::string range = "must be below the number of bodies, " + std::to_string(r.bodies.size());
+  for (size_t i = 0; i < r.shapes.size(); ++i) {
+    const uint32_t body = r.shapes[i].body;
+    if (body >= r.bodies.size()) refuse(element("shapes", i, "body"), std::to_string(body), range);
+  }
+  for (size_t i = 0; i < r.joints.size(); ++i) {
+    for (const uint32_t body : {r.joints[i].bodyA, r.joints[i].bodyB}) {
+      if (body != kWorld && body >= r.bodies.size()) refuse(element("joints", i, "body"), std::to_string(body), range);
+    }
+  }
+  checkFrames(r);
+}
+
+/// Low and high corner of positions, those that are not finite left out.
+struct Bounds {
+  Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+
+  void add(Vec3d p) {
+    if (!finite(p)) return;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  std::array<Range, 3> ranges() const {
+    return {page::rangeOf(low.x, high.x), page::rangeOf(low.y, high.y), page::rangeOf(low.z, high.z)};
+  }
+};
+
+/// The page computes in float about this point; zero unless the scene lies far out.
+Vec3d originOf(const Recording& r) {
+  Bounds bounds;
+  for (size_t i = 0; i < r.bodies.size(); ++i) {
+    if (r.bodies[i].type != BodyType::Static) bounds.add(r.frames[0].poses[i].position);
+  }
+  if (!(bounds.low.x <= bounds.high.x)) return {};
+  const Vec3d middle = (bounds.low + bounds.high) * 0.5;
+  return length(middle) < 1000 ? Vec3d{} : middle;
+}
+
+void append(std::vector<float>& out, Vec3 v) { out.insert(out.end(), {v.x, v.y, v.z}); }
+void append(std::vector<float>& out, Quat q) { out.insert(out.end(), {q.w, q.x, q.y, q.z}); }
+void append(std::vector<double>& out, Vec3d v) { out.insert(out.end(), {v.x, v.y, v.z}); }
+
+/// Bodies that move, and the range of each one's coordinates.
+struct Tracks {
+  std::vector<uint32_t> bodies;
+  std::vector<std::array<Range, 3>> ranges;
+  std::vector<int32_t> trackOfBody;  ///< -1: never moves
+  std::vector<float> stillPoses;     ///< of those, about the origin
+};
+
+Tracks findTracks(const Recording& r, Vec3d origin) {
+  Tracks t;
+  t.trackOfBody.assign(r.bodies.size(), -1);
+  for (uint32_t body = 0; body < r.bodies.size(); ++body) {
+    const Pose& first = r.frames[0].poses[body];
+    Bounds bounds;
+    bool moves = false;
+    for (const RecordedFrame& f : r.frames) {
+      bounds.add(f.poses[body].position);
+      moves = moves || !(f.poses[body] == first);
+    }
+    if (moves) {
+      t.trackOfBody[body] = static_cast<int32_t>(t.bodies.size());
+      t.bodies.push_back(body);
+      t.ranges.push_back(bounds.ranges());
+    } else {
+      append(t.stillPoses, toFloat(finite(first.position) ? first.position - origin : Vec3d{}));
+      append(t.stillPoses, first.rotation);
+    }
+  }
+  return t;
+}
+
+/// The largest number of contacts a frame may keep so that all frames together keep at most `budget`.
+size_t contactsPerFrame(const Recording& r, size_t budget) {
+  size_t low = 0, high = 0;
+  for (const RecordedFrame& f : r.frames) high = std::max(high, f.contacts.size());
+  while (low < high) {
+    const size_t middle = low + (high - low + 1) / 2;
+    size_t kept = 0;
+    for (const RecordedFrame& f : r.frames) kept += std::min(middle, f.contacts.size());
+    (kept <= budget ? low : high) = kept <= budget ? middle : middle - 1;
+  }
+  return low;
+}
+
+std::vector<RecordedContact> strongest(const std::vector<RecordedContact>& all, size_t count) {
+  if (all.size() <= count) return all;
+  std::vector<std::pair<float, uint32_t>> order(all.size());
+  for (uint32_t i = 0; i < all.size(); ++i) {
+    const float force = length(all[i].force);
+    order[i] = {std::isfinite(force) ? -force : 0, i};
+  }
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
+  std::vector<RecordedContact> kept;
+  for (size_t i = 0; i < count; ++i) kept.push_back(all[order[i].second]);
+  return kept;
+}
+
+/// Fields of the JSON head, one after the other.
+class Head {
+ public:
+  explicit Head(std::ostream& out) : out_(out) { out_ << "{\"version\":1"; }
+  void text(const char* name, std::string_view value) { out_ << ",\"" << name << "\":" << jsonText(value); }
+  template <class T>
+  void numbers(const char* name, const std::vector<T>& value) {
+    out_ << ",\n\"" << name << "\":\"" << base64Of(value) << '"';
+  }
+  template <class List, class Print>
+  void list(const char* name, const List& items, Print print) {
+    out_ << ",\n\"" << name << "\":[";
+    const char* comma = "";
+    for (const auto& item : items) {
+      out_ << comma;
+      print(out_, item);
+      comma = ",";
+    }
+    out_ << ']';
+  }
+  ~Head() { out_ << "}\n"; }
+
+ private:
+  std::ostream& out_;
+};
+
+void writeBodies(Head& head, const Recording& r, const Tracks& tracks) {
+  std::vector<uint8_t> types;
+  for (const RecordedBody& body : r.bodies) types.push_back(static_cast<uint8_t>(body.type));
+  head.list("names", r.bodies, [](std::ostream& out, const RecordedBody& body) { out << jsonText(body.name); });
+  head.numbers("types", types);
+  head.numbers("tracks", tracks.trackOfBody);
+  head.numbers("still", tracks.stillPoses);
+  std::vector<double> ranges;
+  for (const auto& track : tracks.ranges) {
+    for (const Range& axis : track) ranges.insert(ranges.end(), {axis.low, axis.step});
+  }
+  head.numbers("ranges", ranges);
+}
+
+struct PlainShape {
+  uint8_t kind;
+  Vec3 size;
+};
+PlainShape plain(const Sphere& s) { return {0, {s.radius, 0, 0}}; }
+PlainShape plain(const Capsule& s) { return {1, {s.radius, s.halfHeight, 0}}; }
+PlainShape plain(const Box& s) { return {2, {s.x, s.y, s.z}}; }
+PlainShape plain(const HalfSpace&) { return {3, {}}; }
+
+void writeShapes(Head& head, const Recording& r) {
+  std::vector<uint32_t> bodies;
+  std::vector<uint8_t> kinds;
+  std::vector<float> sizes, poses;
+  for (const RecordedShape& shape : r.shapes) {
+    const PlainShape p = std::visit([](const auto& geometry) { return plain(geometry); }, shape.geometry);
+    bodies.push_back(shape.body);
+    kinds.push_back(p.kind);
+    append(sizes, p.size);
+    append(poses, toFloat(shape.pose.position));
+    append(poses, shape.pose.rotation);
+  }
+  head.numbers("shapeBodies", bodies);
+  head.numbers("shapeKinds", kinds);
+  head.numbers("shapeSizes", sizes);
+  head.numbers("shapePoses", poses);
+}
+
+void writeJoints(Head& head, const Recording& r) {
+  std::vector<uint32_t> bodies;
+  std::vector<double> anchors;
+  for (const RecordedJoint& joint : r.joints) {
+    bodies.insert(bodies.end(), {joint.bodyA, joint.bodyB});
+    append(anchors, joint.anchorA);
+    append(anchors, joint.anchorB);
+  }
+  head.numbers("jointBodies", bodies);
+  head.numbers("jointAnchors", anchors);
+}
+
+void writeFigures(Head& head, const Recording& r, size_t contactsKept) {
+  std::vector<double> times;
+  std::vector<float> energy, penetration, gap;
+  std::vector<uint32_t> kept, all;
+  for (const RecordedFrame& f : r.frames) {
+    times.push_back(f.time);
+    energy.push_back(static_cast<float>(f.kineticEnergy));
+    penetration.push_back(static_cast<float>(f.penetrationMax));
+    gap.push_back(static_cast<float>(f.jointGapMax));
+    all.push_back(static_cast<uint32_t>(f.contacts.size()));
+    kept.push_back(static_cast<uint32_t>(std::min(f.contacts.size(), contactsKept)));
+  }
+  head.numbers("times", times);
+  head.numbers("energy", energy);
+  head.numbers("penetration", penetration);
+  head.numbers("gap", gap);
+  head.numbers("contactsAll", all);
+  head.numbers("contactsKept", kept);
+  head.list("report", r.report, [](std::ostream& out, const auto& line) {
+    out << '[' << jsonText(line.first) << ',' << jsonText(line.second) << ']';
+  });
+}
+
+std::array<Range, 3> contactRanges(const Recording& r) {
+  Bounds bounds;
+  for (const RecordedFrame& f : r.frames) {
+    for (const RecordedContact& c : f.contacts) bounds.add(c.position);
+  }
+  return bounds.ranges();
+}
+
+/// The frames' bytes in script elements of a few megabytes, each a whole number of frames.
+void writeFrames(std::ostream& out, const Recording& r, const Tracks& tracks, size_t contactsKept) {
+  const std::array<Range, 3> contactRange = contactRanges(r);
+  std::vector<Pose> last(tracks.bodies.size());  // a pose that is not finite shows as the one before
+  Bytes bytes;
+  const auto flush = [&](size_t nextFrame) {
+    out << "<script type=\"text/plain\" class=\"avbd-frames\" data-end=\"" << nextFrame << "\">" << page::base64(bytes)
+        << "</script>\n";
+    bytes.clear();
+  };
+  for (size_t i = 0; i < r.frames.size(); ++i) {
+    const RecordedFrame& f = r.frames[i];
+    for (size_t t = 0; t < tracks.bodies.size(); ++t) {
+      const Pose& pose = f.poses[tracks.bodies[t]];
+      if (finite(pose.position)) last[t] = pose;
+      appendPose(bytes, tracks.ranges[t].data(), last[t]);
+    }
+    for (const RecordedContact& c : strongest(f.contacts, contactsKept)) {
+      appendContact(bytes, contactRange.data(), c.position, c.force);
+    }
+    if (bytes.size() >= kChunkBytes) flush(i + 1);
+  }
+  flush(r.frames.size());
+}
+
+void writeHead(std::ostream& out, const Recording& r, const Tracks& tracks, Vec3d origin, size_t contactsKept) {
+  Head head(out);
+  head.text("title", r.title);
+  head.numbers("up", std::vector<float>{r.up.x, r.up.y, r.up.z});
+  head.numbers("origin", std::vector<double>{origin.x, origin.y, origin.z});
+  std::vector<double> contactRange;
+  for (const Range& axis : contactRanges(r)) contactRange.insert(contactRange.end(), {axis.low, axis.step});
+  head.numbers("contactRange", contactRange);
+  writeBodies(head, r, tracks);
+  writeShapes(head, r);
+  writeJoints(head, r);
+  writeFigures(head, r, contactsKept);
+}
+
+// The policy lets the page reach nothing but itself.
+constexpr char kTop[] = R"(<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="generator" content="avbd">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:">
+<title>)";
+constexpr char kMiddle[] = R"(</title>
+<style>html{background:#12161c;color:#d7dee8;font-family:system-ui,sans-serif}@media(prefers-color-scheme:light){html{background:#eef1f5;color:#1d2530}}</style>
+</head>
+<body>
+<noscript>This page plays a recorded simulation and needs JavaScript.</noscript>
+<script type="application/json" id="avbd-head">
+)";
+
+}  // namespace
+
+void writePage(std::ostream& out, const Recording& recording, const PageOptions& options) {
+  check(recording);
+  const Vec3d origin = originOf(recording);
+  const Tracks tracks = findTracks(recording, origin);
+  const size_t contactsKept = contactsPerFrame(recording, options.contactsMax);
+  out << kTop << page::htmlText(recording.title.empty() ? "AVBD" : recording.title) << kMiddle;
+  writeHead(out, recording, tracks, origin, contactsKept);
+  out << "</script>\n";
+  writeFrames(out, recording, tracks, contactsKept);
+  out << "<script>" << viewerScript() << "</script>\n</body>\n</html>\n";
+}
+
+void writePage(const std::filesystem::path& file, const Recording& recording, const PageOptions& options) {
+  check(recording);
+  std::ofstream out(file, std::ios::binary);
+  if (!out) throw std::runtime_error(file.string() + ": cannot be opened for writing");
+  writePage(out, recording, options);
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": could not be written");
+}
+
+}  // namespace avbd

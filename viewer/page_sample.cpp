@@ -1,0 +1,174 @@
+// Writes made-up recordings for the browser test: page_sample FILE.html [pyramid | pile | hostile].
+#include "viewer/page.h"
+
+#include <cmath>
+#include <iostream>
+
+namespace avbd {
+namespace {
+
+uint32_t add(Recording& r, const std::string& name, BodyType type, const Geometry& geometry, const Pose& pose = {}) {
+  const auto body = static_cast<uint32_t>(r.bodies.size());
+  r.bodies.push_back({name, type});
+  r.shapes.push_back({body, geometry, pose});
+  return body;
+}
+
+Quat turn(Vec3 axis, float angle) {
+  const float s = std::sin(angle / 2) / length(axis);
+  return {std::cos(angle / 2), axis.x * s, axis.y * s, axis.z * s};
+}
+
+/// Height over the rest height of something dropped from `height`, bouncing.
+double bounce(double height, double time) {
+  double fall = std::sqrt(2 * height / 9.81);
+  if (time < fall) return height - 4.905 * time * time;
+  time -= fall;
+  for (int i = 0; i < 6; ++i) {
+    fall *= 0.5;
+    if (time < 2 * fall) return 9.81 * fall * time - 4.905 * time * time;
+    time -= 2 * fall;
+  }
+  return 0;
+}
+
+/// z is up: 55 boxes that settle into a pyramid, three capsules on a chain, two balls.
+Recording pyramid() {
+  Recording r;
+  r.title = "Pyramid & pendulum: 55 boxes, 3 capsules, 2 balls";
+  r.up = {0, 0, 1};
+  add(r, "floor", BodyType::Static, HalfSpace{}, {{}, turn({1, 0, 0}, 1.57079633f)});
+  add(r, "post", BodyType::Static, Box{0.15f, 0.15f, 2.6f});
+  add(r, "ramp", BodyType::Static, Box{1.6f, 1.0f, 0.1f});
+  for (int row = 0; row < 10; ++row) {
+    for (int i = 0; i < 10 - row; ++i) {
+      add(r, "box_" + std::to_string(row) + "_" + std::to_string(i), BodyType::Dynamic, Box{0.25f, 0.25f, 0.25f});
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    const uint32_t link =
+        add(r, "link_" + std::to_string(i), BodyType::Dynamic, Capsule{0.12f, 0.3f}, {{}, turn({1, 0, 0}, 1.57079633f)});
+    r.joints.push_back({i == 0 ? 1u : link - 1, link, i == 0 ? Vec3d{0, -0.4, 2.4} : Vec3d{0, 0, -0.45}, {0, 0, 0.45}});
+  }
+  add(r, "ball_heavy", BodyType::Dynamic, Sphere{0.45f});
+  add(r, "ball_rolling", BodyType::Dynamic, Sphere{0.35f});
+  r.joints.push_back({60, 61, {0, 0, -0.45}, {0, 0, 0.55}});
+  return r;
+}
+
+void addPyramidPoses(RecordedFrame& f, double t) {
+  f.poses = {{}, {{3.4, 0.4, 2.6}, {}}, {{-4.2, 0.2, 0.75}, turn({0, 1, 0}, 0.35f)}};
+  for (int row = 0; row < 10; ++row) {
+    for (int i = 0; i < 10 - row; ++i) {
+      const double late = std::max(0.0, t - 0.12 * row);
+      const double height = bounce(0.25 + 0.3 * row, late);
+      const float twist = 0.25f * static_cast<float>(height) * ((row + i) % 2 == 0 ? 1.0f : -1.0f);
+      f.poses.push_back({{(i - (9 - row) * 0.5) * 0.54, 0.25, 0.25 + row * 0.5 + height}, turn({0, 0, 1}, twist)});
+    }
+  }
+  const double swing = 0.9 * std::cos(2.1 * t) * std::exp(-0.05 * t);
+  Vec3d pin{3.4, 0, 5};
+  const Vec3d down{std::sin(swing), 0, -std::cos(swing)};
+  for (int i = 0; i < 4; ++i) {
+    const double reach = i < 3 ? 0.45 : 0.55;
+    f.poses.push_back({pin + down * reach, turn({0, 1, 0}, static_cast<float>(-swing))});
+    pin = pin + down * (2 * reach);
+  }
+  const double along = std::min(0.25 * 3.1 * t * t, 8.0);
+  const double x = -5.4 + along, ground = 0.35;
+  const double slope = 0.75 - std::tan(0.35) * (x + 4.2) + 0.1 / std::cos(0.35) + 0.35 / std::cos(0.35);
+  f.poses.push_back({{x, 0.2 - 1.2 * std::max(0.0, x + 2.6), std::max(slope, ground)},
+                     turn({0, 1, 0}, static_cast<float>(along / 0.35))});
+}
+
+void addPyramidFigures(RecordedFrame& f, double t) {
+  for (int row = 0; row < 10; ++row) {
+    for (int i = 0; i < 10 - row; ++i) {
+      if (t < 0.12 * row + 0.4) continue;
+      const Pose& pose = f.poses[static_cast<size_t>(3 + row * 10 - row * (row - 1) / 2 + i)];
+      for (int corner = 0; corner < 4; ++corner) {
+        const Vec3d arm{corner % 2 == 0 ? -0.2 : 0.2, corner < 2 ? -0.2 : 0.2, -0.25};
+        f.contacts.push_back({pose.position + rotate(pose.rotation, arm), {4.0f * static_cast<float>(corner), 0, 60.0f * (10 - row)}});
+      }
+    }
+  }
+  f.kineticEnergy = 4200 * std::exp(-1.4 * t) * (1 + 0.6 * std::sin(9 * t)) + 60 * std::pow(std::sin(2.1 * t), 2);
+  f.penetrationMax = 0.004 + 0.011 * std::exp(-2.5 * t) * std::fabs(std::sin(14 * t));
+  f.jointGapMax = 2e-5 * (1 + std::fabs(std::sin(2.1 * t)));
+}
+
+Recording pyramidRun() {
+  Recording r = pyramid();
+  for (int i = 0; i <= 240; ++i) {
+    RecordedFrame f;
+    f.time = i / 60.0;
+    addPyramidPoses(f, f.time);
+    addPyramidFigures(f, f.time);
+    r.frames.push_back(std::move(f));
+  }
+  r.report = {{"bodies", "60 dynamic, 3 static"}, {"contact points", "220"}, {"steps", "240 of 16.67 ms"},
+              {"step time, median", "0.412 ms"}, {"step time, p95", "0.655 ms"}, {"real-time factor", "40.5"},
+              {"penetration, largest", "4.1 mm"}, {"joint gap, largest", "0.02 mm"}, {"hash", "6f1e0c93a7d2b845"}};
+  return r;
+}
+
+/// y is up: 2000 boxes, balls and capsules that move in every frame.
+Recording pileRun() {
+  Recording r;
+  r.title = "Pile of 2000";
+  add(r, "ground", BodyType::Static, HalfSpace{});
+  for (int i = 0; i < 2000; ++i) {
+    const Geometry kinds[3] = {Box{0.2f, 0.2f, 0.2f}, Sphere{0.22f}, Capsule{0.14f, 0.15f}};
+    add(r, "body " + std::to_string(i), BodyType::Dynamic, kinds[i % 3]);
+  }
+  for (int i = 0; i < 300; ++i) {
+    RecordedFrame f;
+    f.time = i / 60.0;
+    f.poses.emplace_back();
+    for (int k = 0; k < 2000; ++k) {
+      const double wave = 0.1 * std::sin(3 * f.time + 0.37 * k) + 0.1;
+      f.poses.push_back({{(k % 15 - 7) * 0.5, 0.25 + (k / 225) * 0.55 + wave, (k / 15 % 15 - 7) * 0.5},
+                         turn({1, 0.3f, 0.2f}, static_cast<float>(0.02 * k + 0.4 * f.time))});
+      if (k < 225) f.contacts.push_back({f.poses.back().position + Vec3d{0, -0.2, 0}, {0, 30, 0}});
+    }
+    f.kineticEnergy = 900 + 100 * std::sin(6 * f.time);
+    r.frames.push_back(std::move(f));
+  }
+  return r;
+}
+
+/// Names that try to break out of the page, poses that are not finite, a scene far from the origin, one frame.
+Recording hostile() {
+  Recording r;
+  r.title = "</title><script>window.broken=1</script>\"'&";
+  r.up = {1, 1, 0};
+  add(r, "</script><script>window.broken=2</script>", BodyType::Static, HalfSpace{});
+  add(r, "<!--<script>\"'\\\n\t\xff\xfe", BodyType::Dynamic, Box{0.5f, 0.5f, 0.5f});
+  add(r, "<img src=x onerror=window.broken=3>", BodyType::Dynamic, Sphere{NAN});
+  add(r, "", BodyType::Kinematic, Capsule{0.2f, 0});
+  r.bodies.push_back({"no shape", BodyType::Dynamic});
+  RecordedFrame f;
+  f.poses = {{{1e6, 1e6, -1e6}, {}}, {{1e6 + 1, 1e6 + 1, -1e6}, {}}, {{NAN, 0, 0}, {NAN, 0, 0, 0}},
+             {{1e6 - 1, 1e6 + 2, -1e6 + 2}, {0, 0, 0, 0}}, {{1e6, 1e6, 1e6}, {}}};
+  f.contacts = {{{NAN, 0, 0}, {INFINITY, 0, 0}}, {{1e6, 1e6, -1e6}, {0, 1e30f, 0}}};
+  f.kineticEnergy = NAN;
+  f.penetrationMax = INFINITY;
+  r.frames.push_back(f);
+  r.joints.push_back({1, 0xffffffffu, {}, {1e6, 1e6, -1e6}});
+  r.report = {{"<b>label</b>", "</script><script>window.broken=4</script>"}};
+  return r;
+}
+
+}  // namespace
+}  // namespace avbd
+
+int main(int argc, char** argv) {
+  const std::string kind = argc > 2 ? argv[2] : "pyramid";
+  if (argc < 2) {
+    std::cerr << "page_sample FILE.html [pyramid | pile | hostile]\n";
+    return 2;
+  }
+  const avbd::Recording r = kind == "pile" ? avbd::pileRun() : kind == "hostile" ? avbd::hostile() : avbd::pyramidRun();
+  avbd::writePage(argv[1], r);
+  return 0;
+}

@@ -1,0 +1,255 @@
+// The page in headless Chromium: page_test.mjs SAMPLE_PROGRAM CHROMIUM WORK_FOLDER.
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdirSync, mkdtempSync, rmSync, statSync} from 'node:fs';
+import {join, resolve} from 'node:path';
+import {pathToFileURL} from 'node:url';
+import {chromium} from 'playwright-core';
+
+const [sample, browserPath, folder] = process.argv.slice(2);
+const kSize = {width: 1280, height: 800};
+const work = resolve(folder);
+mkdirSync(work, {recursive: true});
+const profile = mkdtempSync(join(work, 'profile-'));
+
+const browser = await chromium.launchPersistentContext(profile, {
+  executablePath: browserPath,
+  headless: true,
+  viewport: kSize,
+  colorScheme: 'dark',
+  args: ['--headless', '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
+         '--disable-component-update', '--disable-sync', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+});
+
+async function open(kind) {
+  const file = join(work, `${kind}.html`);
+  execFileSync(sample, [file, kind]);
+  const page = await browser.newPage();
+  const complaints = [];
+  page.on('console', (message) => {
+    if (message.type() === 'error' || message.type() === 'warning') complaints.push(message.text());
+  });
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('request', (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) complaints.push(`asked the network for ${request.url()}`);
+  });
+  await page.goto(pathToFileURL(file).href);
+  await page.waitForFunction(() => window.avbdViewer, null, {timeout: 30000});
+  await settle(page);
+  return {page, complaints, bytes: statSync(file).size};
+}
+
+/// Two pictures later all that was asked for is on the screen.
+const settle = (page) =>
+    page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30)))));
+const ask = (page, question, value) => page.evaluate(question, value);
+
+/// Pixels of a screenshot, decoded by a blank page.
+const canvas = await browser.newPage();
+async function pixels(page) {
+  await settle(page);
+  const png = (await page.screenshot()).toString('base64');
+  const data = await canvas.evaluate(async (text) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${text}`;
+    await image.decode();
+    const surface = new OffscreenCanvas(image.width, image.height).getContext('2d', {willReadFrequently: true});
+    surface.drawImage(image, 0, 0);
+    const bytes = surface.getImageData(0, 0, image.width, image.height).data;
+    let binary = '';
+    for (let i = 0; i < bytes.length; i += 32768) binary += String.fromCharCode(...bytes.subarray(i, i + 32768));
+    return btoa(binary);
+  }, png);
+  const bytes = Buffer.from(data, 'base64');
+  return (x, y) => {
+    const at = 4 * (Math.round(y) * kSize.width + Math.round(x));
+    return [bytes[at], bytes[at + 1], bytes[at + 2]];
+  };
+}
+const apart = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+
+/// Every body that nothing hides shows its own colour where it should be, and not the background's.
+async function checkBodies(page, least) {
+  const shown = await pixels(page);
+  await ask(page, () => window.avbdViewer.showBodies(false));
+  const empty = await pixels(page);
+  await ask(page, () => window.avbdViewer.showBodies(true));
+  const bodies = await ask(page, () => window.avbdViewer.recording.names.map((name, body) =>
+      ({name, body, color: window.avbdViewer.colorOf(body), ...window.avbdViewer.project(body)})));
+  const seen = bodies.filter((item) => item.visible && item.front === item.body);
+  assert.ok(seen.length >= least, `${seen.length} bodies in front, ${least} expected`);
+  for (const {name, x, y} of seen) {
+    const difference = apart(shown(x, y), empty(x, y));
+    assert.ok(difference > 24, `${name} at ${x.toFixed()},${y.toFixed()} differs from the background by ${difference}`);
+  }
+  const hues = new Set(seen.map(({x, y}) => shown(x, y).map((value) => value >> 5).join()));
+  assert.ok(hues.size >= 5, `only ${hues.size} colours`);
+  return seen.length;
+}
+
+async function testPlaying(page) {
+  await ask(page, () => window.avbdViewer.seek(0));
+  await settle(page);
+  const before = await ask(page, () => window.avbdViewer.poseOf(20));
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.avbdViewer.time > 0.25);
+  assert.equal(await ask(page, () => window.avbdViewer.playing), true);
+  await page.click('.play');
+  assert.equal(await ask(page, () => window.avbdViewer.playing), false);
+  const stopped = await ask(page, () => window.avbdViewer.time);
+  await settle(page);
+  assert.equal(await ask(page, () => window.avbdViewer.time), stopped);
+  assert.ok(apart(before, await ask(page, () => window.avbdViewer.poseOf(20))) > 0.01, 'bodies move');
+}
+
+async function testScrubbing(page) {
+  const box = await page.locator('.scrub').boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  assert.ok(Math.abs(await ask(page, () => window.avbdViewer.time) - 2) < 0.1, 'the scrub bar seeks');
+  await page.keyboard.press('Home');
+  for (const [key, frame] of [['ArrowRight', 1], ['ArrowRight', 2], ['ArrowLeft', 1], ['Shift+ArrowRight', 11], ['End', 240]]) {
+    await page.keyboard.press(key);
+    await settle(page);
+    assert.equal(await ask(page, () => window.avbdViewer.frame), frame, key);
+  }
+  const plot = await page.locator('.plotBox').first().boundingBox();
+  await page.mouse.click(plot.x + 44 + (plot.width - 52) / 4, plot.y + 30);
+  assert.ok(Math.abs(await ask(page, () => window.avbdViewer.time) - 1) < 0.05, 'a plot seeks');
+}
+
+async function testInterpolation(page) {
+  const height = async (time) => {
+    await ask(page, (at) => window.avbdViewer.seek(at), time);
+    await settle(page);
+    return (await ask(page, () => window.avbdViewer.poseOf(40)))[2];
+  };
+  const [a, middle, b] = [await height(6 / 60), await height(6.5 / 60), await height(7 / 60)];
+  assert.ok(Math.abs(a - b) > 1e-3, 'the body moves between the frames');
+  assert.ok(Math.abs(middle - (a + b) / 2) < 1e-4, 'half way between two frames');
+}
+
+/// Each toggle changes the picture and, off again, brings it back.
+async function testToggles(page) {
+  await ask(page, () => window.avbdViewer.seek(2));
+  const count = (a, b) => {
+    let different = 0;
+    for (let y = 80; y < 700; y += 2) {
+      for (let x = 10; x < 960; x += 2) different += apart(a(x, y), b(x, y)) > 20;
+    }
+    return different;
+  };
+  await page.mouse.move(500, 90);
+  const plain = await pixels(page);
+  for (const name of ['Contacts', 'Forces', 'Joints', 'Names']) {
+    const button = page.locator('.chip', {hasText: name}).first();
+    await button.click();
+    await page.mouse.move(500, 90);
+    const on = await pixels(page);
+    assert.ok(count(plain, on) > 30, `${name} shows something: ${count(plain, on)}`);
+    await button.click();
+    await page.mouse.move(500, 90);
+    assert.ok(count(plain, await pixels(page)) < 30, `${name} goes away again`);
+  }
+  await page.keyboard.press('n');
+  await settle(page);
+  const labels = await ask(page, () => window.avbdViewer.labels);
+  assert.ok(labels > 20 && labels <= 200, `${labels} labels`);
+  await page.keyboard.press('n');
+}
+
+async function testSelecting(page) {
+  const body = await ask(page, () => window.avbdViewer.recording.names.indexOf('ball_heavy'));
+  const {x, y} = await ask(page, (index) => window.avbdViewer.project(index), body);
+  await page.mouse.click(x, y);
+  assert.equal(await ask(page, () => window.avbdViewer.selected), body);
+  const text = await page.locator('.selection').innerText();
+  assert.match(text, /ball_heavy/);
+  assert.match(text, /m\/s/);
+  await page.keyboard.press('f');
+  await settle(page);
+  const near = await ask(page, (index) => window.avbdViewer.project(index), body);
+  assert.ok(Math.abs(near.x - 484) < 4, `looking at the body: ${near.x}`);
+  await page.keyboard.press('r');
+  await page.keyboard.press('Escape');
+  assert.equal(await ask(page, () => window.avbdViewer.selected), -1);
+}
+
+async function testPyramid() {
+  const {page, complaints} = await open('pyramid');
+  assert.equal(await page.locator('h1').innerText(), 'Pyramid & pendulum: 55 boxes, 3 capsules, 2 balls');
+  assert.match(await page.locator('.panel').innerText(), /6f1e0c93a7d2b845/);
+  await ask(page, () => window.avbdViewer.setQuality('0'));
+  for (const time of [0, 1, 4]) {
+    await ask(page, (at) => window.avbdViewer.seek(at), time);
+    const seen = await checkBodies(page, 45);
+    console.log(`pyramid at ${time} s: ${seen} bodies where they should be`);
+  }
+  await testPlaying(page);
+  await testScrubbing(page);
+  await testInterpolation(page);
+  await testToggles(page);
+  await testSelecting(page);
+  await ask(page, () => window.avbdViewer.toggle('theme', true));
+  await checkBodies(page, 45);
+  await takePictures(page);
+  assert.deepEqual(complaints, []);
+  await page.close();
+}
+
+async function takePictures(page) {
+  await ask(page, () => { window.avbdViewer.toggle('theme', false); window.avbdViewer.seek(0.8); });
+  await settle(page);
+  await page.screenshot({path: join(work, 'dark.png')});
+  await ask(page, () => { window.avbdViewer.toggle('theme', true); window.avbdViewer.seek(2.4); });
+  for (const name of ['contacts', 'forces', 'joints', 'names']) {
+    await ask(page, (which) => window.avbdViewer.toggle(which, true), name);
+  }
+  await ask(page, () => window.avbdViewer.select(20));
+  await settle(page);
+  await page.screenshot({path: join(work, 'light.png')});
+}
+
+async function testPile() {
+  const {page, complaints, bytes} = await open('pile');
+  assert.ok(bytes < 15e6, `${bytes} bytes`);
+  await ask(page, () => window.avbdViewer.play());
+  await page.waitForTimeout(6000);
+  const stats = await ask(page, () => ({...window.avbdViewer.stats, calls: window.avbdViewer.drawCalls()}));
+  console.log(`pile of 2000, 300 frames: ${(bytes / 1e6).toFixed(1)} MB; our code ${stats.updateMs.toFixed(2)} ms a picture, ` +
+      `three.js ${stats.drawMs.toFixed(2)} ms; ${stats.perSecond.toFixed(1)} pictures/s in software at quality ` +
+      `${stats.quality}, ${stats.calls} draw calls`);
+  assert.ok(stats.updateMs < 4, `our code takes ${stats.updateMs} ms`);
+  assert.ok(stats.calls < 20, `${stats.calls} draw calls`);
+  await page.screenshot({path: join(work, 'pile.png')});
+  await ask(page, () => window.avbdViewer.pause());
+  await checkBodies(page, 100);
+  assert.deepEqual(complaints, []);
+  await page.close();
+}
+
+async function testHostile() {
+  const {page, complaints} = await open('hostile');
+  assert.equal(await ask(page, () => window.broken), undefined);
+  assert.equal(await page.title(), `</title><script>window.broken=1</script>"'&`);
+  assert.equal(await ask(page, () => window.avbdViewer.recording.names[0]), '</script><script>window.broken=2</script>');
+  assert.match(await page.locator('.panel').innerText(), /window\.broken=4/);
+  await page.keyboard.press('n');
+  await page.keyboard.press('c');
+  await page.keyboard.press('Space');
+  await ask(page, () => window.avbdViewer.select(2));
+  await settle(page);
+  await page.screenshot({path: join(work, 'hostile.png')});
+  assert.equal(await ask(page, () => window.broken), undefined);
+  assert.deepEqual(complaints, []);
+  await page.close();
+}
+
+try {
+  await testPyramid();
+  await testHostile();
+  await testPile();
+  console.log('all passed');
+} finally {
+  await browser.close();
+  rmSync(profile, {recursive: true, force: true});
+}

@@ -1,0 +1,162 @@
+// The bodies as instanced meshes: one draw call for boxes, one for spheres, two for capsules.
+import * as THREE from 'three';
+import {bevelled, striped} from './materials.js';
+
+const kPalette = [0x4e8fd0, 0xe8a04c, 0x53b08a, 0xd9695f, 0x8f7fd1, 0xe3c657, 0x58b4c4, 0xd389b4, 0x93ad5a, 0xb98e6d];
+
+function hashOf(text) {
+  let hash = 2166136261;
+  for (let i = 0; i < text.length; ++i) hash = Math.imul(hash ^ text.charCodeAt(i), 16777619);
+  hash ^= hash >>> 15;
+  hash = Math.imul(hash, 0x2c1b3c6d);
+  return (hash ^ (hash >>> 12)) >>> 0;
+}
+
+/// The same colour for the same name in every recording.
+export function colorOf(recording, body, light) {
+  const color = new THREE.Color();
+  if (recording.types[body] === 0) return color.setHex(light ? 0xb4bcc6 : 0x727c89);
+  const hash = hashOf(recording.nameOf(body));
+  color.setHex(kPalette[hash % kPalette.length]);
+  return color.offsetHSL(0, 0, (((hash >>> 8) % 64) / 63 - 0.5) * 0.07);
+}
+
+/// What is drawn of one shape: which mesh, how it is scaled, and where it sits in the body.
+function parts(shape) {
+  const [x, y, z] = shape.size;
+  const at = (mesh, scale, offset, flip) => ({mesh, scale, offset, flip});
+  if (shape.kind === 'box') return [at('box', [x, y, z], 0, false)];
+  if (shape.kind === 'sphere') return [at('sphere', [x, x, x], 0, false)];
+  if (shape.kind !== 'capsule') return [];
+  return [at('tube', [x, y, x], 0, false), at('cap', [x, x, x], y, false), at('cap', [x, x, x], -y, true)];
+}
+
+const kFlip = new THREE.Quaternion(1, 0, 0, 0);
+
+function partPose(shape, part) {
+  const rotation = new THREE.Quaternion(...shape.rotation);
+  if (rotation.lengthSq() < 1e-9) rotation.identity();
+  rotation.normalize();
+  const position = new THREE.Vector3(0, part.offset, 0).applyQuaternion(rotation);
+  position.add(new THREE.Vector3(...shape.position));
+  if (part.flip) rotation.multiply(kFlip);
+  return [...position.toArray(), ...rotation.toArray()];
+}
+
+/// Round shapes get fewer triangles the more of them there are.
+const detailFor = (count) => (count < 150 ? 1 : count < 600 ? 0.7 : count < 1500 ? 0.5 : 0.4);
+const kGeometries = {
+  box: () => new THREE.BoxGeometry(2, 2, 2),
+  sphere: (detail) => new THREE.SphereGeometry(1, Math.round(36 * detail), Math.round(24 * detail)),
+  tube: (detail) => new THREE.CylinderGeometry(1, 1, 2, Math.round(32 * detail), 1, true),
+  cap: (detail) => new THREE.SphereGeometry(1, Math.round(32 * detail), Math.round(12 * detail), 0, 2 * Math.PI, 0,
+                                            Math.PI / 2),
+};
+
+class Instances {
+  constructor(kind, items, recording) {
+    // Those that move come first, so that only their part is sent to the GPU.
+    items.sort((a, b) => (recording.tracks[a.body] < 0) - (recording.tracks[b.body] < 0));
+    this.bodies = Uint32Array.from(items, (item) => item.body);
+    this.movers = items.filter((item) => recording.tracks[item.body] >= 0).length;
+    this.scales = Float32Array.from(items.flatMap((item) => item.scale));
+    this.poses = Float32Array.from(items.flatMap((item) => item.pose));
+    this.plain = Uint8Array.from(items, ({pose}) => (pose.slice(0, 6).every((value) => value === 0) ? 1 : 0));
+    const geometry = kGeometries[kind](detailFor(recording.shapes.length));
+    if (kind === 'box') geometry.setAttribute('halfSize', new THREE.InstancedBufferAttribute(this.scales, 3));
+    this.mesh = new THREE.InstancedMesh(geometry, kind === 'box' ? bevelled() : striped(), items.length);
+    this.mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
+    this.mesh.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * items.length), 3);
+    this.mesh.castShadow = this.mesh.receiveShadow = true;
+    this.mesh.frustumCulled = false;
+    this.mesh.name = kind;
+  }
+
+  update(poses, from, to) {
+    const matrices = this.mesh.instanceMatrix.array;
+    for (let i = from; i < to; ++i) {
+      const b = 7 * this.bodies[i], s = 7 * i, m = 16 * i;
+      let px = poses[b], py = poses[b + 1], pz = poses[b + 2];
+      let x = poses[b + 3], y = poses[b + 4], z = poses[b + 5], w = poses[b + 6];
+      if (!this.plain[i]) {
+        const l = this.poses;
+        const tx = 2 * (y * l[s + 2] - z * l[s + 1]), ty = 2 * (z * l[s] - x * l[s + 2]);
+        const tz = 2 * (x * l[s + 1] - y * l[s]);
+        px += l[s] + w * tx + y * tz - z * ty;
+        py += l[s + 1] + w * ty + z * tx - x * tz;
+        pz += l[s + 2] + w * tz + x * ty - y * tx;
+        const [lx, ly, lz, lw] = [l[s + 3], l[s + 4], l[s + 5], l[s + 6]];
+        const [ax, ay, az, aw] = [x, y, z, w];
+        x = aw * lx + ax * lw + ay * lz - az * ly;
+        y = aw * ly - ax * lz + ay * lw + az * lx;
+        z = aw * lz + ax * ly - ay * lx + az * lw;
+        w = aw * lw - ax * lx - ay * ly - az * lz;
+      }
+      const sx = this.scales[3 * i], sy = this.scales[3 * i + 1], sz = this.scales[3 * i + 2];
+      matrices[m] = (1 - 2 * (y * y + z * z)) * sx;
+      matrices[m + 1] = 2 * (x * y + w * z) * sx;
+      matrices[m + 2] = 2 * (x * z - w * y) * sx;
+      matrices[m + 4] = 2 * (x * y - w * z) * sy;
+      matrices[m + 5] = (1 - 2 * (x * x + z * z)) * sy;
+      matrices[m + 6] = 2 * (y * z + w * x) * sy;
+      matrices[m + 8] = 2 * (x * z + w * y) * sz;
+      matrices[m + 9] = 2 * (y * z - w * x) * sz;
+      matrices[m + 10] = (1 - 2 * (x * x + y * y)) * sz;
+      matrices[m + 12] = px;
+      matrices[m + 13] = py;
+      matrices[m + 14] = pz;
+      matrices[m + 15] = 1;
+    }
+    if (to > from) {
+      this.mesh.instanceMatrix.addUpdateRange(16 * from, 16 * (to - from));
+      this.mesh.instanceMatrix.needsUpdate = true;
+    }
+  }
+}
+
+export class Bodies {
+  constructor(recording) {
+    this.recording = recording;
+    this.group = new THREE.Group();
+    this.colors = [];
+    const items = new Map();
+    for (const shape of recording.shapes) {
+      for (const part of parts(shape)) {
+        if (!items.has(part.mesh)) items.set(part.mesh, []);
+        items.get(part.mesh).push({body: shape.body, scale: part.scale, pose: partPose(shape, part)});
+      }
+    }
+    this.sets = [...items].map(([kind, list]) => new Instances(kind, list, recording));
+    for (const set of this.sets) this.group.add(set.mesh);
+  }
+
+  /// All poses, once; then `move` for those that change.
+  place(poses) {
+    for (const set of this.sets) set.update(poses, 0, set.bodies.length);
+  }
+
+  move(poses) {
+    for (const set of this.sets) set.update(poses, 0, set.movers);
+  }
+
+  /// Colours by theme, with the selected and hovered body picked out.
+  paint(light, selected, hovered) {
+    const {recording} = this;
+    this.colors = recording.names.map((_, body) => colorOf(recording, body, light));
+    this.light = light;
+    this.mark(selected, hovered);
+  }
+
+  mark(selected, hovered) {
+    const accent = new THREE.Color(0xff7a1a), white = new THREE.Color(0xffffff), color = new THREE.Color();
+    for (const set of this.sets) {
+      set.bodies.forEach((body, i) => {
+        color.copy(this.colors[body]);
+        if (body === selected) color.lerp(accent, 0.85);
+        else if (body === hovered) color.lerp(white, 0.3);
+        color.toArray(set.mesh.instanceColor.array, 3 * i);
+      });
+      set.mesh.instanceColor.needsUpdate = true;
+    }
+  }
+}

@@ -1,0 +1,39 @@
+// How large bodies and the scene are.
+import * as THREE from 'three';
+
+/// Radius about the body's origin that holds its shapes; 0 for a half-space.
+export function bodyRadii(recording) {
+  const radii = new Float32Array(recording.bodyCount);
+  for (const shape of recording.shapes) {
+    const [x, y, z] = shape.size;
+    const own = shape.kind === 'box' ? Math.hypot(x, y, z) : shape.kind === 'capsule' ? x + y : x;
+    if (shape.kind === 'plane') continue;
+    radii[shape.body] = Math.max(radii[shape.body], Math.hypot(...shape.position) + own);
+  }
+  return radii;
+}
+
+/// Box around what happens, y up. Of many bodies the few that fly far off are left out.
+export function sceneBox(recording, radii, turn) {
+  const last = recording.frameCount - 1;
+  const frames = [...new Set([0, 0.25, 0.5, 0.75, 1].map((part) => Math.round(part * last)))];
+  const poses = new Float32Array(7 * recording.bodyCount);
+  let bodies = recording.moving.filter((body) => radii[body] > 0);
+  if (bodies.length === 0) bodies = recording.names.map((_, i) => i).filter((body) => radii[body] > 0);
+  const lows = [[], [], []], highs = [[], [], []], point = new THREE.Vector3();
+  for (const frame of frames) {
+    recording.poses(frame, poses, true);
+    for (const body of bodies) {
+      point.fromArray(poses, 7 * body).applyQuaternion(turn);
+      point.toArray().forEach((value, axis) => {
+        lows[axis].push(value - radii[body]);
+        highs[axis].push(value + radii[body]);
+      });
+    }
+  }
+  if (bodies.length === 0) return new THREE.Box3(new THREE.Vector3(-2, 0, -2), new THREE.Vector3(2, 2, 2));
+  const cut = bodies.length > 20 ? 0.01 : 0;
+  const at = (list, part) => list.sort((a, b) => a - b)[Math.round(part * (list.length - 1))];
+  return new THREE.Box3(new THREE.Vector3(...lows.map((list) => at(list, cut))),
+                        new THREE.Vector3(...highs.map((list) => at(list, 1 - cut))));
+}

@@ -1,0 +1,215 @@
+// Opens the page: reads the recording, builds stage and interface, and plays.
+import {Bodies} from './bodies.js';
+import {bodyRadii, sceneBox} from './bounds.js';
+import {Interface, make} from './interface.js';
+import {addKeys, addPointer} from './input.js';
+import {Labels} from './labels.js';
+import {Marks} from './marks.js';
+import {Motion} from './motion.js';
+import {pick} from './pick.js';
+import {Player} from './player.js';
+import {withUnit} from './plots.js';
+import {Recording} from './recording.js';
+import {Stage} from './stage.js';
+import * as THREE from 'three';
+import style from './style.css';
+
+const kTypes = ['static', 'kinematic', 'dynamic'];
+
+class Viewer {
+  constructor(recording) {
+    this.recording = recording;
+    this.selected = this.hovered = -1;
+    this.on = {contacts: false, forces: false, joints: false, names: false, panel: window.innerWidth > 760, loop: true,
+               follow: false, theme: window.matchMedia('(prefers-color-scheme: light)').matches};
+    this.radii = bodyRadii(recording);
+    this.motion = new Motion(recording);
+    const actions = this.makeActions();
+    this.interface = new Interface(recording, actions);
+    const turn = new THREE.Quaternion();
+    turn.setFromUnitVectors(new THREE.Vector3(...recording.up).normalize(), new THREE.Vector3(0, 1, 0));
+    this.stage = new Stage(this.interface.view, recording, sceneBox(recording, this.radii, turn));
+    this.bodies = new Bodies(recording);
+    this.marks = new Marks(recording, this.stage.radius);
+    this.labels = new Labels(this.interface.overlay, recording, this.radii);
+    this.stage.world.add(this.bodies.group, this.marks.group);
+    this.bodies.place(this.motion.now);
+    this.player = new Player(this);
+    this.actions = actions;
+    addKeys(this);
+    addPointer(this);
+    this.applyTheme();
+    this.applyPanel();
+    this.interface.press('loop', true);
+    this.interface.showSelection(undefined);
+    this.player.setQuality('auto');
+    new ResizeObserver(() => this.resize()).observe(this.interface.picture);
+    this.stage.controls.addEventListener('change', () => this.player.touch());
+    this.resize();
+    this.stage.resetView();
+    this.player.seek(recording.times[0]);
+  }
+
+  makeActions() {
+    return {
+      seek: (time) => this.player.seek(time),
+      step: (count) => this.player.step(count),
+      togglePlay: () => this.player.setPlaying(!this.player.playing),
+      setSpeed: (speed) => { this.player.speed = speed; },
+      setQuality: (value) => this.player.setQuality(value),
+      resetView: () => this.stage.resetView(),
+      lookAtSelected: () => this.lookAtSelected(),
+      toggle: (name) => this.set(name, !this.on[name]),
+    };
+  }
+
+  set(name, on) {
+    this.on[name] = on;
+    if (name === 'theme') this.applyTheme();
+    else if (name === 'panel') this.applyPanel();
+    else if (name === 'names') this.labels.all = on;
+    else if (name === 'follow') this.showSelection();
+    else if (name !== 'loop') this.marks.show(name, on);
+    this.interface.press(name, on);
+    this.player.touch(true);
+  }
+
+  applyTheme() {
+    document.documentElement.classList.toggle('light', this.on.theme);
+    this.stage.setTheme(this.on.theme);
+    this.bodies.paint(this.on.theme, this.selected, this.hovered);
+    for (const plot of this.interface.plots) plot.resize();
+  }
+
+  applyPanel() {
+    this.interface.root.classList.toggle('wide', !this.on.panel);
+    for (const plot of this.interface.plots) plot.resize();
+  }
+
+  resize() {
+    const {clientWidth, clientHeight} = this.interface.picture;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.stage.resize(clientWidth, clientHeight);
+    this.labels.resize(clientWidth, clientHeight);
+    this.marks.setPixelRatio(this.stage.renderer.getPixelRatio());
+    for (const plot of this.interface.plots) plot.resize();
+    this.player.touch(true);
+  }
+
+  /// All that depends on the poses shown.
+  placeAll() {
+    const {motion, recording} = this;
+    this.bodies.move(motion.now);
+    this.stage.placePlanes(motion.now);
+    this.marks.update(motion);
+    if (this.selected >= 0) this.updateSelection();
+    this.interface.showTime(this.player.time, motion.frame);
+    const frame = motion.frame, kept = recording.contactsKept[frame], all = recording.contactsAll[frame];
+    const some = kept < all ? `the strongest ${kept} of ${all}` : `${all}`;
+    const text = this.on.contacts || this.on.forces ? `${some} contact points` : '';
+    if (this.interface.note.textContent !== text) this.interface.note.textContent = text;
+  }
+
+  drawLabels() {
+    this.labels.draw(this.stage, this.motion.now, this.selected, this.hovered, this.on.theme);
+  }
+
+  pick(x, y) {
+    return pick(this.recording, this.motion.now, this.radii, this.stage.rayAt(x, y));
+  }
+
+  select(body) {
+    if (body === this.selected) return;
+    this.selected = body;
+    this.on.follow = false;
+    this.bodies.mark(body, this.hovered);
+    this.marks.tracePath(body);
+    this.showSelection();
+    this.player.touch(true);
+  }
+
+  hover(body) {
+    if (body === this.hovered) return;
+    this.hovered = body;
+    this.interface.view.classList.toggle('over', body >= 0);
+    this.bodies.mark(this.selected, body);
+    this.player.touch();
+  }
+
+  showSelection() {
+    const {selected, recording} = this;
+    if (selected < 0) return this.interface.showSelection(undefined);
+    this.interface.showSelection({name: recording.nameOf(selected), type: kTypes[recording.types[selected]] ?? '',
+                                  color: this.bodies.colors[selected].getStyle(), follow: this.on.follow});
+    return this.updateSelection();
+  }
+
+  updateSelection() {
+    const {motion, recording, selected} = this;
+    const k = 7 * selected;
+    const position = [0, 1, 2].map((i) => (motion.now[k + i] + recording.origin[i]).toFixed(3)).join('  ');
+    const angle = (2 * Math.acos(Math.min(1, Math.abs(motion.now[k + 6]))) * 180) / Math.PI;
+    this.interface.updateSelection(`${position} m`, `${angle.toFixed(1)}°`, withUnit(motion.speed(selected), 'm/s'));
+  }
+
+  pointOf(body) {
+    return new THREE.Vector3().fromArray(this.motion.now, 7 * body).applyQuaternion(this.stage.world.quaternion);
+  }
+
+  lookAtSelected() {
+    if (this.selected < 0) return;
+    this.stage.lookAt(this.pointOf(this.selected), this.radii[this.selected] || 0.1 * this.stage.radius);
+  }
+}
+
+/// What a test or a user's console may call.
+function publish(viewer) {
+  const {player, stage, recording} = viewer;
+  window.debugViewer = viewer;
+  window.avbdViewer = {
+    recording: {bodies: recording.bodyCount, frames: recording.frameCount, names: recording.names},
+    get time() { return player.time; },
+    get frame() { return viewer.motion.frame; },
+    get playing() { return player.playing; },
+    get selected() { return viewer.selected; },
+    get stats() { return player.stats(); },
+    get labels() { return viewer.labels.drawn; },
+    play: () => player.setPlaying(true),
+    pause: () => player.setPlaying(false),
+    seek: (time) => player.seek(time),
+    select: (body) => viewer.select(body),
+    toggle: (name, on) => viewer.set(name, on),
+    setQuality: (value) => player.setQuality(value),
+    lookAtSelected: () => viewer.lookAtSelected(),
+    showBodies: (on) => {
+      viewer.bodies.group.visible = on;
+      player.touch(true);
+    },
+    poseOf: (body) => Array.from(viewer.motion.now.subarray(7 * body, 7 * body + 7)),
+    colorOf: (body) => viewer.bodies.colors[body].getHex(),
+    /// Where a body's origin is on the page, and which body one sees there.
+    project: (body) => {
+      const {x, y, z} = stage.project(...viewer.motion.now.subarray(7 * body, 7 * body + 3));
+      const {left, top} = viewer.interface.view.getBoundingClientRect();
+      const visible = Math.abs(z) < 1 && document.elementFromPoint(x + left, y + top) === viewer.interface.view;
+      return {x: x + left, y: y + top, visible, front: viewer.pick(x, y)};
+    },
+    drawCalls: () => stage.renderer.info.render.calls,
+  };
+}
+
+function start() {
+  const sheet = document.createElement('style');
+  sheet.textContent = style;
+  document.head.append(sheet);
+  try {
+    publish(new Viewer(new Recording(document)));
+  } catch (error) {
+    console.error(error);
+    const reason = `The recording cannot be shown: ${error.message}`;
+    document.body.replaceChildren(make('div', {class: 'failure'}, make('h1', {text: document.title}),
+                                       make('p', {text: reason}), make('p', {text: 'WebGL 2 is needed.'})));
+  }
+}
+
+start();

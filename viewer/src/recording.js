@@ -1,0 +1,172 @@
+// Reads what page.cpp wrote: the JSON head and the frames' bytes.
+
+const kPoseBytes = 15;
+const kContactBytes = 13;
+export const kKinds = ['sphere', 'capsule', 'box', 'plane'];
+export const kWorld = 0xffffffff;
+
+function bytesOf(base64) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+const numbers = (Type, base64) => new Type(bytesOf(base64).buffer);
+
+/// The three smaller components in 15 bits each; the largest is positive and makes the length one.
+function unpackRotation(low, high, out, at) {
+  const largest = (high >> 21) & 3;
+  const scale = Math.SQRT1_2;
+  const a = (((high >> 6) & 0x7fff) / 16383 - 1) * scale;
+  const b = ((((high << 9) & 0x7e00) | (low >> 15)) / 16383 - 1) * scale;
+  const c = ((low & 0x7fff) / 16383 - 1) * scale;
+  const d = Math.sqrt(Math.max(0, 1 - a * a - b * b - c * c));
+  // Stored w first, kept as x y z w.
+  if (largest === 0) [out[at], out[at + 1], out[at + 2], out[at + 3]] = [a, b, c, d];
+  else if (largest === 1) [out[at], out[at + 1], out[at + 2], out[at + 3]] = [d, b, c, a];
+  else if (largest === 2) [out[at], out[at + 1], out[at + 2], out[at + 3]] = [b, d, c, a];
+  else [out[at], out[at + 1], out[at + 2], out[at + 3]] = [b, c, d, a];
+}
+
+export class Recording {
+  constructor(doc) {
+    const head = JSON.parse(doc.getElementById('avbd-head').textContent);
+    this.title = head.title || 'AVBD';
+    this.up = numbers(Float32Array, head.up);
+    this.origin = numbers(Float64Array, head.origin);
+    this.report = head.report;
+    this.names = head.names;
+    this.types = numbers(Uint8Array, head.types);
+    this.tracks = numbers(Int32Array, head.tracks);
+    this.still = numbers(Float32Array, head.still);
+    this.ranges = numbers(Float64Array, head.ranges);
+    this.contactRange = numbers(Float64Array, head.contactRange);
+    this.shapes = this.readShapes(head);
+    this.joints = this.readJoints(head);
+    for (const name of ['energy', 'penetration', 'gap']) this[name] = numbers(Float32Array, head[name]);
+    this.times = numbers(Float64Array, head.times);
+    this.contactsAll = numbers(Uint32Array, head.contactsAll);
+    this.contactsKept = numbers(Uint32Array, head.contactsKept);
+    this.bodyCount = this.names.length;
+    this.frameCount = this.times.length;
+    this.moving = [];
+    this.tracks.forEach((track, body) => track >= 0 && this.moving.push(body));
+    this.readFrames(doc);
+  }
+
+  readShapes(head) {
+    const bodies = numbers(Uint32Array, head.shapeBodies);
+    const kinds = numbers(Uint8Array, head.shapeKinds);
+    const sizes = numbers(Float32Array, head.shapeSizes);
+    const poses = numbers(Float32Array, head.shapePoses);
+    const clean = (value, otherwise) => (Number.isFinite(value) ? value : otherwise);
+    return Array.from(bodies, (body, i) => {
+      const pose = Array.from(poses.subarray(7 * i, 7 * i + 7), (value, k) => clean(value, k === 3 ? 1 : 0));
+      const [x, y, z, qw, qx, qy, qz] = pose;
+      const size = Array.from(sizes.subarray(3 * i, 3 * i + 3), (value) => Math.max(0, clean(value, 0)));
+      return {body, kind: kKinds[kinds[i]], size, position: [x, y, z], rotation: [qx, qy, qz, qw]};
+    });
+  }
+
+  readJoints(head) {
+    const bodies = numbers(Uint32Array, head.jointBodies);
+    const anchors = numbers(Float64Array, head.jointAnchors);
+    const joints = [];
+    for (let i = 0; i < bodies.length / 2; ++i) {
+      const ends = [0, 1].map((side) => {
+        const body = bodies[2 * i + side];
+        const anchor = Array.from(anchors.subarray(6 * i + 3 * side, 6 * i + 3 * side + 3));
+        return {body, anchor: body === kWorld ? anchor.map((value, k) => value - this.origin[k]) : anchor};
+      });
+      joints.push({a: ends[0], b: ends[1]});
+    }
+    return joints;
+  }
+
+  readFrames(doc) {
+    this.places = [];  // of each frame: the chunk, and the offset in it
+    let frame = 0;
+    for (const element of doc.querySelectorAll('script.avbd-frames')) {
+      const bytes = bytesOf(element.textContent);
+      element.remove();
+      let offset = 0;
+      for (const end = Number(element.dataset.end); frame < end; ++frame) {
+        this.places.push({bytes, offset});
+        offset += kPoseBytes * this.moving.length + kContactBytes * this.contactsKept[frame];
+      }
+    }
+  }
+
+  /// Poses of a frame, 7 numbers a body: x y z qx qy qz qw about the origin. `stills` writes those that never move.
+  poses(frame, out, stills) {
+    if (stills) this.stillPoses(out);
+    const {bytes, offset} = this.places[frame];
+    const {ranges, moving, origin} = this;
+    for (let t = 0, p = offset; t < moving.length; ++t, p += kPoseBytes) {
+      const at = 7 * moving[t];
+      for (let axis = 0; axis < 3; ++axis) {
+        const code = bytes[p + 3 * axis] | (bytes[p + 3 * axis + 1] << 8) | (bytes[p + 3 * axis + 2] << 16);
+        const range = 6 * t + 2 * axis;
+        out[at + axis] = ranges[range] - origin[axis] + code * ranges[range + 1];
+      }
+      const low = bytes[p + 9] | (bytes[p + 10] << 8) | (bytes[p + 11] << 16);
+      const high = bytes[p + 12] | (bytes[p + 13] << 8) | (bytes[p + 14] << 16);
+      unpackRotation(low, high, out, at + 3);
+    }
+  }
+
+  stillPoses(out) {
+    let from = 0;
+    for (let body = 0; body < this.bodyCount; ++body) {
+      if (this.tracks[body] >= 0) continue;
+      const [x, y, z, qw, qx, qy, qz] = this.still.subarray(from, from + 7);
+      const length = Math.hypot(qw, qx, qy, qz);
+      const turn = length > 1e-6 && Number.isFinite(length) ? [qx, qy, qz, qw].map((q) => q / length) : [0, 0, 0, 1];
+      out.set([x, y, z, ...turn], 7 * body);
+      from += 7;
+    }
+  }
+
+  /// Contacts of a frame as two flat lists of 3 numbers each.
+  contacts(frame) {
+    const count = this.contactsKept[frame];
+    const {bytes, offset} = this.places[frame];
+    const positions = new Float32Array(3 * count), forces = new Float32Array(3 * count);
+    let p = offset + kPoseBytes * this.moving.length;
+    for (let i = 0; i < count; ++i, p += kContactBytes) {
+      for (let axis = 0; axis < 3; ++axis) {
+        const code = bytes[p + 3 * axis] | (bytes[p + 3 * axis + 1] << 8) | (bytes[p + 3 * axis + 2] << 16);
+        const [low, step] = [this.contactRange[2 * axis], this.contactRange[2 * axis + 1]];
+        positions[3 * i + axis] = low - this.origin[axis] + code * step;
+      }
+      const size = bytes[p + 11] | (bytes[p + 12] << 8);
+      if (size === 0) continue;
+      let u = ((bytes[p + 9] << 24) >> 24) / 127, v = ((bytes[p + 10] << 24) >> 24) / 127;
+      const w = 1 - Math.abs(u) - Math.abs(v);
+      if (w < 0) [u, v] = [(1 - Math.abs(v)) * (u < 0 ? -1 : 1), (1 - Math.abs(u)) * (v < 0 ? -1 : 1)];
+      const force = 2 ** ((size - 1) / 1024 - 20) / Math.hypot(u, v, w);
+      forces.set([u * force, v * force, w * force], 3 * i);
+    }
+    return {positions, forces};
+  }
+
+  /// The last frame at or before a time, and how far towards the next one it is.
+  frameAt(time) {
+    const {times, frameCount} = this;
+    if (!(time > times[0])) return {frame: 0, part: 0};
+    if (time >= times[frameCount - 1]) return {frame: frameCount - 1, part: 0};
+    let low = 0, high = frameCount - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (times[middle] <= time) low = middle;
+      else high = middle;
+    }
+    return {frame: low, part: (time - times[low]) / (times[high] - times[low] || 1)};
+  }
+
+  nameOf(body) {
+    return this.names[body] || `body ${body}`;
+  }
+}
