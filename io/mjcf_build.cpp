@@ -88,7 +88,7 @@ Builder::Builder(const Description& description, const MjcfOptions& options)
   model_.name = in_.name.empty() ? std::filesystem::path(in_.fileName).stem().string() : in_.name;
   model_.dt = in_.dt;
   const double g = length(in_.gravity);
-  model_.up = g > 0 ? avbd::toFloat(in_.gravity * (-1 / g)) : Vec3{0, 0, 1};
+  model_.up = g > 0 ? avbd::toFloat(in_.gravity * (-1 / g) + Vec3d{}) : Vec3{0, 0, 1};
   for (const Body& body : in_.bodies) names_.insert(body.name);
   chooseStart(options);
 }
@@ -114,7 +114,7 @@ void Builder::setVelocities(const std::vector<double>& qvel) {
     const double* v = qvel.data() + body.qvelAt;
     if (linkOf(i) == Link::Free) {
       m = {{v[0], v[1], v[2]}, rotate(start_[i].rotation, Vec3d{v[3], v[4], v[5]})};
-    } else if (linkOf(i) == Link::Ball && body.joints.size() == 1) {
+    } else if (linkOf(i) == Link::Ball) {
       const Vec3d turn = rotate(start_[i].rotation, Vec3d{v[0], v[1], v[2]});
       const Vec3d arm = rotate(start_[i].rotation, body.joints[0].pos) * -1.0;
       m = {m.linear + cross(turn, arm), m.angular + turn};
@@ -153,7 +153,7 @@ void Builder::noteWelds() {
     }
     for (const Joint& joint : body.joints) {
       const std::string name = joint.name.empty() ? "joint" : "joint \"" + joint.name + "\"";
-      notes_.add(joint.where, name + " (" + kKinds[static_cast<size_t>(joint.kind)] + "): welded");
+      notes_.add(joint.place, name + " (" + kKinds[static_cast<size_t>(joint.kind)] + "): welded");
     }
     if (rootOf(i) != i) {
       const std::string& root = in_.bodies[rootOf(i)].name;
@@ -201,10 +201,10 @@ void Builder::failMass(size_t root) const {
   const std::string& where = body.where;
   bool known = true;
   for (size_t i = root; i < in_.bodies.size(); ++i) {
-    if (rootOf(i) == root) known = known && in_.bodies[i].massKnown;
+    if (rootOf(i) == root) known = known && in_.bodies[i].massKnown && !in_.bodies[i].partsLeftOut;
   }
   if (known) throw FileError(where + ": a body that moves needs mass and inertia > 0 (geoms with mass, or inertial)");
-  throw FileError(where + ": the mass of a body that moves is not known: it has meshes only; give it an inertial");
+  throw FileError(where + ": the mass of a body that moves is not known, as parts of it are left out: give it an inertial");
 }
 
 void Builder::gather() {

@@ -17,7 +17,7 @@ struct Clusters {
 };
 /// Bodies without a joint of ours are part of their parent.
 Clusters clustersOf(const Description& description);
-/// All ball joints of the body turn about one point.
+/// One ball joint and nothing else.
 bool isBallOnly(const Body& body);
 
 /// Index into description.keys, or -1 for the file's own poses. Throws FileError for a name that is not there.

@@ -1,15 +1,12 @@
 // Which MJCF bodies become one rigid body, and which keyframe applies.
 #include "io/mjcf_build.h"
 
-#include <algorithm>
 #include <set>
 
 namespace avbd::mjcf {
 
 bool isBallOnly(const Body& body) {
-  return !body.joints.empty() && std::all_of(body.joints.begin(), body.joints.end(), [&](const Joint& joint) {
-    return joint.kind == JointKind::Ball && length(joint.pos - body.joints[0].pos) < 1e-9;
-  });
+  return body.joints.size() == 1 && body.joints[0].kind == JointKind::Ball;
 }
 
 Clusters clustersOf(const Description& description) {

@@ -18,7 +18,7 @@ void noteUse(const XmlSource& source, Elem elem, std::string_view element, const
   } else if (use != Use::Noted) {
     return;
   }
-  notes.add(source.where(elem), std::string(element) + " attribute " + std::string(attr.name) + " is not used");
+  notes.add(source.where(elem), "attribute " + std::string(attr.name) + " is not used", element);
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ void checkAttributes(const XmlSource& source, Elem elem, std::string_view elemen
     const Attr attr{a.name(), a.value(), elem};
     const AttributeRule* rule = findRule(element, attr.name);
     if (!rule) {
-      notes.add(source.where(elem), "unknown attribute " + quoted(attr.name) + " of " + std::string(element));
+      notes.add(source.where(elem), "unknown attribute " + quoted(attr.name), element);
       continue;
     }
     if (rule->most > 0) {
@@ -76,7 +76,7 @@ void Defaults::readSettings(Elem elem, Class& cls, Notes& notes) {
     const std::string_view name = child.name();
     const Section section = sectionOf("default", name);
     if (section == Section::Unknown) {
-      notes.add(source_.where(child), "unknown element " + quoted(name) + " of default");
+      notes.add(source_.where(child), "unknown element", name);
     }
     if (section != Section::Read || name == "default") continue;
     checkAttributes(source_, child, name, notes);

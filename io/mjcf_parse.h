@@ -33,7 +33,7 @@ struct Geom {
 };
 
 struct Joint {
-  std::string name, where;
+  std::string name, where, place;  ///< place: `tower.xml:12`
   JointKind kind = JointKind::Hinge;
   Vec3d pos;            ///< in the body's frame
   Vec3d axis{0, 0, 1};  ///< unit, in the body's frame
@@ -48,6 +48,7 @@ struct Body {
   std::vector<Geom> geoms;
   Mass mass;               ///< in the body's frame
   bool massKnown = true;   ///< false where a geom's mass is not
+  bool partsLeftOut = false;  ///< composites and the like, which may have had mass
   bool moves = false;      ///< it or a body above it has a joint
   bool mocap = false;
   double gravcomp = 0;

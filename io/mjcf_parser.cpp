@@ -55,9 +55,9 @@ void Parser::noteChildren(Elem section, std::string_view sectionName) {
   for (const Elem child : source_.children(section)) {
     const Section use = sectionOf(sectionName, child.name());
     if (use == Section::Noted) {
-      notes_.add(source_.where(child), std::string(child.name()) + " is ignored");
+      notes_.add(source_.where(child), "ignored", child.name());
     } else if (use == Section::Unknown) {
-      notes_.add(source_.where(child), "unknown element " + quoted(child.name()) + " of " + std::string(sectionName));
+      notes_.add(source_.where(child), "unknown element", child.name());
     }
   }
 }

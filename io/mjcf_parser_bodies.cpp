@@ -93,11 +93,12 @@ void Parser::readBodyChild(Elem elem, std::vector<OpenElem>& open) {
   if (name == "inertial") return readInertial(elem, in);
   switch (sectionOf("body", name)) {
     case Section::Noted:
-      notes_.add(source_.where(elem), std::string(name) + " is left out");
+      notes_.add(source_.where(elem), "left out", name);
+      out_.bodies[static_cast<size_t>(in.body)].partsLeftOut = true;
       coordinatesMissing_ = true;
       break;
     case Section::Unknown:
-      notes_.add(source_.where(elem), "unknown element " + quoted(name) + " of body");
+      notes_.add(source_.where(elem), "unknown element", name);
       break;
     default:
       break;
@@ -148,6 +149,7 @@ void Parser::readJoint(Elem elem, const OpenElem& in, bool isFree) {
   if (body.mocap) source_.fail(elem, "a mocap body cannot have joints");
   Joint joint;
   joint.where = source_.where(elem);
+  joint.place = source_.place(elem);
   joint.name = nameOnce(a, jointNames_);
   joint.kind = isFree ? JointKind::Free
                       : static_cast<JointKind>(a.keyword("type", {"free", "ball", "slide", "hinge"}, 3));
@@ -159,6 +161,11 @@ void Parser::readJoint(Elem elem, const OpenElem& in, bool isFree) {
     joint.ref = a.number("ref", 0);
     if (joint.kind == JointKind::Hinge && compiler_.degrees) joint.ref *= std::numbers::pi / 180;
     noteUnusedJoint(a, joint);
+  }
+  if (joint.kind >= JointKind::Hinge || joint.kind == JointKind::Ball) {
+    for (const Joint& before : body.joints) {
+      if (before.kind == JointKind::Ball) source_.fail(elem, "no joint that turns may follow a ball joint");
+    }
   }
   const bool freeAmong = joint.kind == JointKind::Free || (!body.joints.empty() && body.joints[0].kind == JointKind::Free);
   if (freeAmong && !body.joints.empty()) source_.fail(elem, "a free joint must be the only joint of its body");
@@ -173,7 +180,7 @@ void Parser::noteUnusedJoint(const Attributes& a, const Joint& joint) {
   if (joint.kind == JointKind::Ball && limited) notes_.add(joint.where, "the limit of a ball joint is not used");
   for (const char* name : {"stiffness", "damping", "springdamper", "frictionloss", "armature"}) {
     const auto values = a.numbers(name, 1, 3);
-    if (!values.empty() && values[0] != 0) notes_.add(joint.where, "joint attribute " + std::string(name) + " is not used");
+    if (!values.empty() && values[0] != 0) notes_.add(joint.where, "attribute " + std::string(name) + " is not used");
   }
 }
 

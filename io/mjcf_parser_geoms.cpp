@@ -135,7 +135,7 @@ void Parser::readGeomMass(const Attributes& a, Geom& geom) {
                           geom.kind == GeomKind::Capsule || geom.kind == GeomKind::Box;
   if (canCollide) return;
   const std::string type(kGeomTypes[static_cast<size_t>(geom.kind)]);
-  notes_.add(geom.where, "geom of type " + type + " is left out" +
+  notes_.add(geom.where, "type " + type + " is left out" +
                              (isSolid ? ", and its mass" : geom.mass > 0 ? "; its mass counts" : ""));
 }
 

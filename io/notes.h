@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -9,9 +10,9 @@ namespace avbd {
 
 class Notes {
  public:
-  /// `where` is that of the first time.
-  void add(const std::string& where, const std::string& what) {
-    const auto [it, isNew] = byText_.try_emplace(what, lines_.size());
+  /// `where` is that of the first time; notes are equal if `what` and `about` are.
+  void add(const std::string& where, const std::string& what, std::string_view about = {}) {
+    const auto [it, isNew] = byText_.try_emplace(std::string(about) + '\n' + what, lines_.size());
     if (!isNew) {
       ++lines_[it->second].more;
     } else if (lines_.size() < kMost) {

@@ -211,9 +211,9 @@ std::string XmlSource::label(Elem elem) const {
   return (showParent ? named(parent) + " > " : "") + named(elem.node);
 }
 
-std::string XmlSource::where(Elem elem) const {
-  return fileName(elem) + ":" + std::to_string(line(elem)) + ": " + label(elem);
-}
+std::string XmlSource::place(Elem elem) const { return fileName(elem) + ":" + std::to_string(line(elem)); }
+
+std::string XmlSource::where(Elem elem) const { return place(elem) + ": " + label(elem); }
 
 void XmlSource::fail(Elem elem, const std::string& message) const {
   throw FileError(where(elem) + ": " + message, fileName(elem), line(elem));

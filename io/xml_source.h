@@ -38,6 +38,8 @@ class XmlSource {
   int line(Elem elem) const;
   /// `geom "a"`, or `body "b" > geom` for one without a name.
   std::string label(Elem elem) const;
+  /// `tower.xml:12`
+  std::string place(Elem elem) const;
   /// `tower.xml:12: geom "a"`
   std::string where(Elem elem) const;
 

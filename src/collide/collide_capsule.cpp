@@ -161,20 +161,24 @@ bool cutToFace(const CapsuleInBox& c, int face, Cut& cut) {
   return cut.t[0] <= cut.t[1];
 }
 
-/// Points where the core lies above (or in) a face. Positions in the box's frame; the normal out of the box.
-void addOnFace(const CapsuleInBox& c, int face, float sign, float margin, Manifold& out) {
+/// Points where the core lies above (or in) a face, unless all are farther than `nearest`, the true separation: then the
+/// core's lowest part is not above the face. Positions in the box's frame; the normal out of the box.
+void addOnFace(const CapsuleInBox& c, int face, float sign, float nearest, float margin, Manifold& out) {
   Cut cut;
   if (!cutToFace(c, face, cut)) return;
   Axes n{};
   n[face] = sign;
   const uint32_t name = 64 + 8 * static_cast<uint32_t>(2 * face + (sign > 0 ? 1 : 0));
+  float lowest = margin;
   for (int end = 0; end < 2; ++end) {
     if (end == 1 && !(cut.t[0] < cut.t[1])) break;
     const Vec3 p = c.core.center + vec(c.half) * cut.t[end];
     const float separation = sign * axes(p)[face] - c.extent[face] - c.radius;
     if (separation > margin) continue;
     addPoint(out, p - vec(n) * (c.radius + 0.5f * separation), separation, name | cut.name[end]);
+    lowest = smaller(lowest, separation);
   }
+  if (lowest > nearest + kFaceFirst * c.size) out.count = 0;
   if (out.count > 0) out.normal = vec(n);
 }
 
@@ -203,13 +207,13 @@ void touchApart(const CapsuleInBox& c, const ShapePair& pair, Vec3 p, float dist
   const Axes n = axes(out.normal);
   int face = magnitude(n[1]) > magnitude(n[0]) ? 1 : 0;
   if (magnitude(n[2]) > magnitude(n[face])) face = 2;
+  const float separation = distance - c.radius;
   if (magnitude(n[face]) > 1 - kSameSide) {
-    addOnFace(c, face, n[face] < 0 ? -1.0f : 1.0f, pair.margin, out);
+    addOnFace(c, face, n[face] < 0 ? -1.0f : 1.0f, separation, pair.margin, out);
   } else {
     addOnEdge(c, pair, out);
   }
   if (out.count > 0) return;
-  const float separation = distance - c.radius;
   addPoint(out, p - out.normal * (c.radius + 0.5f * separation), separation, 0);
 }
 
@@ -230,7 +234,7 @@ void touchInside(const CapsuleInBox& c, const ShapePair& pair, Vec3 p, Manifold&
   int face, edge = 0;
   const float separation = leastOverlap(c, out.normal, face, edge) - c.radius;
   if (face >= 0) {
-    addOnFace(c, face, axes(out.normal)[face], pair.margin, out);
+    addOnFace(c, face, axes(out.normal)[face], separation, pair.margin, out);
   } else {
     p = nearestToEdge(c, edge, axes(out.normal));
   }

@@ -117,7 +117,7 @@ TEST_P(Pairs, powersOfTwoScaleEveryBit) {
 void expectTrue(const Scene& s) {
   const oracle::Solid a = oracle::solidOf(s.a, s.poseA), b = oracle::solidOf(s.b, s.poseB);
   const double truth = oracle::separation(a, b), thin = std::min(oracle::thinnest(s.a), oracle::thinnest(s.b));
-  const double slack = 2.5e-3 * thin + 0.03 * std::fabs(truth + a.radius + b.radius) + 5e-6;
+  const double slack = 2.5e-3 * thin + 0.03 * std::fabs(truth + a.radius + b.radius) + 0.003 * (a.radius + b.radius) + 5e-6;
   const Manifold m = s.collide();
   if (m.count == 0) {
     ASSERT_GT(truth, s.margin - slack) << describe(s);

@@ -1,7 +1,7 @@
 // The kernels of one lane width; included once by each backend_w*.cpp with AVBD_LANES and AVBD_LANES_NAMESPACE defined.
 // Everything here is local to that file: code for different instruction sets must not meet in the linker.
 #include "avbd/rows/sinks.h"
-#include "lane/gather.h"
+#include "lane/scatter_pair.h"
 #include "solve/backend.h"
 #include "solve/geometric.h"
 
@@ -12,7 +12,6 @@ using namespace rows;
 constexpr int N = AVBD_LANES;
 using R = lane::Real<N>;
 using lane::gatherTwist;
-using lane::scatterAddTwist;
 
 /// Calls f(tile, lane offset) for all lanes of a number of tiles.
 template <class F>
@@ -65,16 +64,12 @@ void prepareContacts(const BatchView& v, const SolveSettings& s) {
 
 // ---- Rows ------------------------------------------------------------------------------------------------------
 
-AVBD_INLINE void addGeometric(const BatchView& v, const uint32_t* row, const V3<R>& force, const V3<R>& arm) {
-  const Sym3<R> g = geometricStiffness(force, arm);
+AVBD_INLINE void addToDiagonal(const BatchView& v, const uint32_t* a, const Sym3<R>& gA, const uint32_t* b,
+                               const Sym3<R>& gB) {
   const R o = zero<R>();
-  R block[24];
-  for (auto& entry : block) entry = o;
-  const R angular[6] = {g.xx, g.yy, g.zz, g.xy, g.xz, g.yz};
-  for (int i = 0; i < 6; ++i) block[15 + i] = angular[i];
-  lane::scatterAddRows<N>(v.hessian, kHessianRow, row, block);
-  const R diagonal[8] = {o, g.xx, g.yy, g.zz, g.xy, g.xz, g.yz, o};
-  lane::scatterAddRows<N>(v.diagonal, 8, row, diagonal);
+  const R va[8] = {o, gA.xx, gA.yy, gA.zz, gA.xy, gA.xz, gA.yz, o};
+  const R vb[8] = {o, gB.xx, gB.yy, gB.zz, gB.xy, gB.xz, gB.yz, o};
+  lane::scatterAddPairs<N>(v.diagonal, 8, a, va, b, vb);
 }
 
 /// Stamps all pairs of one family; with `dual` moves their multipliers first (nothing has moved in between).
@@ -94,14 +89,17 @@ void stampPairs(const BatchView& v, const PairTiles<Family>& tiles, Tile<PairOp>
     sink.clear();
     pair.rows(dA, dB, sink);
     op[t].store<N>(o, PairOp<R>{sink.armA, sink.armB, sink.stiffness});
-    scatterAddTwist<N>(v.gradient, a, shiftWrench(sink.wrench, sink.armA));
-    scatterAddTwist<N>(v.gradient, b, -shiftWrench(sink.wrench, sink.armB));
-    lane::scatterAddSym6<N>(v.hessian, a, shifted(sink.stiffness, sink.armA));
-    lane::scatterAddSym6<N>(v.hessian, b, shifted(sink.stiffness, sink.armB));
+    Sym6<R> blockA = shifted(sink.stiffness, sink.armA), blockB = shifted(sink.stiffness, sink.armB);
     if constexpr (kJoint) {
-      addGeometric(v, a, -sink.wrench.lin, sink.armA);
-      addGeometric(v, b, sink.wrench.lin, sink.armB);
+      const Sym3<R> gA = geometricStiffness(-sink.wrench.lin, sink.armA);
+      const Sym3<R> gB = geometricStiffness(sink.wrench.lin, sink.armB);
+      blockA.aa = blockA.aa + gA;
+      blockB.aa = blockB.aa + gB;
+      addToDiagonal(v, a, gA, b, gB);
     }
+    lane::scatterAddTwists<N>(v.gradient, a, shiftWrench(sink.wrench, sink.armA), b,
+                              -shiftWrench(sink.wrench, sink.armB));
+    lane::scatterAddSym6s<N>(v.hessian, a, blockA, b, blockB);
   });
 }
 
@@ -120,6 +118,17 @@ AVBD_INLINE void gatherNodes(const BatchView& v, const float* array, uint32_t at
   for (int i = 0; i < 4; ++i) node[i] = gatherTwist<N>(array, v.tets.node[i] + at).lin;
 }
 
+/// Adds K values a node to rows of an array, lane after lane and node after node.
+template <int K>
+AVBD_INLINE void scatterNodes(float* array, int stride, const TetTiles& tets, uint32_t at, const R (&value)[4][K]) {
+  alignas(64) float lanes[4][K][N];
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < K; ++k) lane::store(lanes[i][k], value[i][k]);
+  for (uint32_t l = 0; l < N; ++l)
+    for (int i = 0; i < 4; ++i)
+      for (int k = 0; k < K; ++k) array[size_t(tets.node[i][at + l]) * static_cast<size_t>(stride) + k] += lanes[i][k][l];
+}
+
 void stampTets(const BatchView& v, bool dual) {
   forLanes(v.tets.tiles, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
@@ -134,16 +143,18 @@ void stampTets(const BatchView& v, bool dual) {
     BlockStampSink<R, 4> sink;
     tet.rows(d, sink);
     NodeOp<R> op;
-    const V3<R> none = zeroV3<R>();
+    R gradient[4][3], block[4][6];
     for (int i = 0; i < 4; ++i) {
       op.lin[i] = sink.lin[i];
-      scatterAddTwist<N>(v.gradient, v.tets.node[i] + at, Twist<R>{sink.gradient[i], none});
-      Sym6<R> block = zeroSym6<R>();
-      block.ll = sink.diagonal[i];
-      lane::scatterAddSym6<N>(v.hessian, v.tets.node[i] + at, block);
+      const Sym3<R>& m = sink.diagonal[i];
+      const R entries[6] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
+      for (int k = 0; k < 6; ++k) block[i][k] = entries[k];
+      gradient[i][0] = sink.gradient[i].x, gradient[i][1] = sink.gradient[i].y, gradient[i][2] = sink.gradient[i].z;
     }
     op.k = sink.k;
     v.tets.op[t].store<N>(o, op);
+    scatterNodes(v.gradient, 8, v.tets, at, gradient);
+    scatterNodes(v.hessian, kHessianRow, v.tets, at, block);
   });
 }
 
@@ -223,8 +234,7 @@ void multiplyPairs(const BatchView& v, const uint32_t* rowA, const uint32_t* row
     const Twist<R> u = shiftToPoint(gatherTwist<N>(v.p, rowA + at), pair.armA) -
                        shiftToPoint(gatherTwist<N>(v.p, rowB + at), pair.armB);
     const Twist<R> w = pair.stiffness * u;
-    scatterAddTwist<N>(v.q, rowA + at, shiftWrench(w, pair.armA));
-    scatterAddTwist<N>(v.q, rowB + at, -shiftWrench(w, pair.armB));
+    lane::scatterAddTwists<N>(v.q, rowA + at, shiftWrench(w, pair.armA), rowB + at, -shiftWrench(w, pair.armB));
   });
 }
 
@@ -237,8 +247,12 @@ void multiplyTets(const BatchView& v) {
     R sum = zero<R>();
     for (int i = 0; i < 4; ++i) sum = sum + dot(op.lin[i], p[i]);
     const R force = sum * op.k;
-    for (int i = 0; i < 4; ++i)
-      scatterAddTwist<N>(v.q, v.tets.node[i] + at, Twist<R>{op.lin[i] * force, zeroV3<R>()});
+    R value[4][3];
+    for (int i = 0; i < 4; ++i) {
+      const V3<R> f = op.lin[i] * force;
+      value[i][0] = f.x, value[i][1] = f.y, value[i][2] = f.z;
+    }
+    scatterNodes(v.q, 8, v.tets, at, value);
   });
 }
 

@@ -62,14 +62,22 @@ class Instances {
     this.scales = Float32Array.from(items.flatMap((item) => item.scale));
     this.poses = Float32Array.from(items.flatMap((item) => item.pose));
     this.plain = Uint8Array.from(items, ({pose}) => (pose.slice(0, 6).every((value) => value === 0) ? 1 : 0));
-    const geometry = kGeometries[kind](detailFor(recording.shapes.length));
-    if (kind === 'box') geometry.setAttribute('halfSize', new THREE.InstancedBufferAttribute(this.scales, 3));
-    this.mesh = new THREE.InstancedMesh(geometry, kind === 'box' ? bevelled() : striped(), items.length);
+    this.kind = kind;
+    this.mesh = new THREE.InstancedMesh(undefined, kind === 'box' ? bevelled() : striped(), items.length);
     this.mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
     this.mesh.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * items.length), 3);
     this.mesh.castShadow = this.mesh.receiveShadow = true;
     this.mesh.frustumCulled = false;
     this.mesh.name = kind;
+  }
+
+  setDetail(detail) {
+    if (this.detail === detail) return;
+    this.detail = detail;
+    this.mesh.geometry.dispose();
+    this.mesh.geometry = kGeometries[this.kind](detail);
+    if (this.kind !== 'box') return;
+    this.mesh.geometry.setAttribute('halfSize', new THREE.InstancedBufferAttribute(this.scales, 3));
   }
 
   update(poses, from, to) {
@@ -128,6 +136,11 @@ export class Bodies {
     }
     this.sets = [...items].map(([kind, list]) => new Instances(kind, list, recording));
     for (const set of this.sets) this.group.add(set.mesh);
+  }
+
+  setDetail(most) {
+    const detail = Math.min(most, detailFor(this.recording.shapes.length));
+    for (const set of this.sets) set.setDetail(detail);
   }
 
   /// All poses, once; then `move` for those that change.

@@ -2,7 +2,6 @@
 import {kQualities} from './stage.js';
 
 const kSlow = 36;     // ms between pictures above which the quality goes down
-const kSoftwareStart = 2;
 const kJudged = 24;   // pictures in a row before judging
 
 export class Player {
@@ -52,11 +51,12 @@ export class Player {
 
   setQuality(value) {
     this.automatic = value === 'auto';
-    this.apply(this.automatic ? (this.viewer.stage.software ? kSoftwareStart : 0) : Number(value));
+    this.apply(this.automatic ? this.viewer.stage.firstQuality() : Number(value));
   }
 
   apply(level) {
     this.viewer.stage.setQuality(level);
+    this.viewer.bodies.setDetail(kQualities[level].detail);
     this.viewer.marks.setPixelRatio(this.viewer.stage.renderer.getPixelRatio());
     this.streak = 0;
     this.touch(true);

@@ -11,11 +11,11 @@ const kThemes = {
 };
 /// From the best picture to the cheapest; `auto` walks down when frames take too long.
 export const kQualities = [
-  {pixels: 2, shadows: 2048},
-  {pixels: 1, shadows: 2048},
-  {pixels: 1, shadows: 1024},
-  {pixels: 0.75, shadows: 0},
-  {pixels: 0.5, shadows: 0},
+  {pixels: 2, shadows: 2048, detail: 1},
+  {pixels: 1, shadows: 2048, detail: 1},
+  {pixels: 1, shadows: 1024, detail: 0.6},
+  {pixels: 0.75, shadows: 0, detail: 0.28},
+  {pixels: 0.5, shadows: 0, detail: 0.2},
 ];
 const kShadowBodies = 3000;
 const kSunDirection = new THREE.Vector3(0.52, 1, 0.44).normalize();
@@ -72,7 +72,7 @@ export class Stage {
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
     this.controls.zoomToCursor = true;
-    this.manyBodies = recording.bodyCount > kShadowBodies;
+    this.bodyCount = recording.bodyCount;
     this.addLights();
     this.sky = makeSky();
     this.scene.add(this.sky);
@@ -157,7 +157,7 @@ export class Stage {
     // Where nothing smooths edges otherwise, the best quality draws four pixels for one.
     const ratio = this.software && level === 0 ? 2 : Math.min(window.devicePixelRatio * Math.min(pixels, 1), pixels);
     this.renderer.setPixelRatio(ratio);
-    this.sun.castShadow = shadows > 0 && !this.manyBodies;
+    this.sun.castShadow = shadows > 0 && this.bodyCount <= kShadowBodies;
     if (shadows > 0 && this.sun.shadow.mapSize.x !== shadows) {
       this.sun.shadow.mapSize.set(shadows, shadows);
       this.sun.shadow.map?.dispose();
@@ -166,6 +166,12 @@ export class Stage {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.needsUpdate = true;
     if (this.width) this.resize(this.width, this.height);
+  }
+
+  /// Where `auto` begins.
+  firstQuality() {
+    if (!this.software) return 0;
+    return this.bodyCount > 500 ? 3 : 2;
   }
 
   resize(width, height) {
