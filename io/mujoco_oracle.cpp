@@ -10,6 +10,7 @@
 #include <fstream>
 #include <memory>
 #include <random>
+#include <set>
 
 namespace avbd {
 namespace {
@@ -258,10 +259,78 @@ INSTANTIATE_TEST_SUITE_P(
              <geom size=".1"/><body pos="0 1 0"><joint type="ball" pos=".1 .2 .3"/><geom size=".1"/>
                <body pos="0 1 0"><joint axis="1 0 0"/><joint type="ball" pos=".1 0 0"/><geom size=".1"/></body></body></body>
              <body pos="5 5 5"><freejoint/><geom size=".1"/></body></worldbody>
-           <keyframe><key name="k" qpos=".3 .4 1 2 3 4 .5 .5 -.5 .5 .7 0 0 2 1 2 3 1 0 0 1"/>
-             <key qpos="-.3 1 1 0 0 0 .5 .5 -.5 .5 0 0 0 1 0 1 2 3 0 0 1 0"/></keyframe>)",
+           <keyframe><key name="k" qpos=".3 .4 1 2 3 4 .7 .5 .5 -.5 .5 1 2 3 0 0 0 2"/>
+             <key qpos="-.3 1 1 0 0 0 .5 .5 -.5 .5 0 1 2 3 0 0 1 0"/></keyframe>)",
         R"(<worldbody><body><freejoint/><geom size="1" condim="1" friction=".7 .1" priority="2" contype="6" conaffinity="0"/>
            <geom size="1" mass="0"/><geom size="1" density="0" condim="6"/></body></worldbody>)"));
+
+TEST(Oracle, KeyframeVelocities) {
+  const std::string file = write(R"(<mujoco><worldbody>
+    <body name="a" euler="10 20 30"><freejoint/><geom size=".1" pos=".3 .2 .1"/>
+      <body pos="0 1 0"><body name="b" pos="1 0 0"><joint type="ball" pos="0 .5 0"/><geom size=".2" pos="0 0 .4"/></body></body>
+    </body>
+    <body name="c" pos="0 0 9"><joint type="ball" pos="0 .5 .2"/><geom type="box" size="1 2 3" pos="1 0 0"/></body>
+    </worldbody><keyframe><key qpos="1 2 3 1 2 0 0 1 1 0 1 1 0 2 1" qvel="1 2 3 .4 .5 .6 .7 -.8 .9 1 -2 3"/></keyframe></mujoco>)");
+  const Loaded mj = load(file);
+  ASSERT_TRUE(mj.model) << mj.error;
+  mj_resetDataKeyframe(mj.model.get(), mj.data.get(), 0);
+  mj_forward(mj.model.get(), mj.data.get());
+  const Model model = readMjcf(file);
+  for (const NamedBody& body : model.bodies) {
+    mjtNum v[6];
+    mj_objectVelocity(mj.model.get(), mj.data.get(), mjOBJ_BODY, mj_name2id(mj.model.get(), mjOBJ_BODY, body.name.c_str()),
+                      v, 0);
+    const Velocity ours = model.world.velocity(body.id);
+    expectNear(toDouble(ours.angular), v, 1e-5, body.name);
+    expectNear(toDouble(ours.linear), v + 3, 1e-5, body.name);
+  }
+  EXPECT_EQ(model.bodies.size(), 3u);
+}
+
+// Which bodies touch: bit masks, parents and children, the world, excludes, pairs.
+std::set<std::pair<std::string, std::string>> touching(const std::string& file) {
+  std::set<std::pair<std::string, std::string>> out;
+  Model model = readMjcf(file);
+  model.world.step(1e-4f);
+  const auto name = [&](BodyId id) {
+    return std::find_if(model.bodies.begin(), model.bodies.end(), [&](const NamedBody& b) { return b.id == id; })->name;
+  };
+  for (const Contact& contact : model.world.contacts()) {
+    const auto [a, b] = std::minmax(name(contact.bodyA), name(contact.bodyB));
+    out.emplace(a, b);
+  }
+  return out;
+}
+
+TEST(Oracle, TheSameBodiesTouch) {
+  for (const char* head : {"", "<option><flag filterparent='disable'/></option>", "<option collision='predefined'/>",
+                           "<option collision='dynamic'/>", "<option><flag contact='disable'/></option>"}) {
+    const std::string file = write(std::string("<mujoco><size nconmax='1000' njmax='5000'/>") + head + R"(<worldbody>
+      <geom type="plane" size="1 1 1"/>
+      <body name="a"><freejoint/><geom size="1" contype="1" conaffinity="2"/>
+        <body name="a1" pos="0 .1 0"><joint type="ball"/><geom size="1"/>
+          <body name="a2" pos=".1 0 0"><joint type="ball"/><geom type="capsule" size="1 1" conaffinity="4"/></body></body></body>
+      <body name="b"><freejoint/><geom type="box" size="1 1 1" pos="0 0 .2" contype="2" conaffinity="0"/></body>
+      <body name="c"><freejoint/><geom size="1" contype="4" conaffinity="0" pos=".3 0 0"/></body>
+      <body name="d"><freejoint/><geom size="1" contype="0" conaffinity="0" pos="0 .3 0"/></body>
+      <body name="e"><joint type="ball"/><geom size="1" pos=".1 .2 .3"/></body>
+      <body name="f"><freejoint/><geom name="f" size="1" contype="4" conaffinity="8" pos=".4 0 0"/></body>
+      <body name="g"><freejoint/><geom name="g" size="1" contype="16" conaffinity="16" pos=".4 0 .2"/></body>
+      </worldbody><contact><exclude body1="a" body2="e"/><exclude body1="world" body2="c"/><pair geom1="f" geom2="g"/></contact>
+      </mujoco>)");
+    const Loaded mj = load(file);
+    ASSERT_TRUE(mj.model) << mj.error;
+    mj_forward(mj.model.get(), mj.data.get());
+    std::set<std::pair<std::string, std::string>> theirs;
+    for (int i = 0; i < mj.data->ncon; ++i) {
+      const mjModel* m = mj.model.get();
+      const auto name = [&](int geom) { return std::string(mj_id2name(m, mjOBJ_BODY, m->geom_bodyid[geom])); };
+      const auto [a, b] = std::minmax(name(mj.data->contact[i].geom1), name(mj.data->contact[i].geom2));
+      theirs.emplace(a, b);
+    }
+    EXPECT_EQ(touching(file), theirs) << head;
+  }
+}
 
 // Random trees with random shapes and orientations.
 std::string randomModel(uint32_t seed) {

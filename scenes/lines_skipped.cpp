@@ -32,7 +32,6 @@ std::vector<Line> skippedLines() {
        "cloth and soft bodies are not built yet");
   skip(list, "D", {"rollback"}, "snapshots are not built yet");
   skip(list, "D", {"bad_input"}, "the corpus is not collected yet; unit tests refuse bad definitions and files");
-  skip(list, "D", {"no_allocation"}, "allocations are not counted yet");
   skip(list, "D", {"asleep"}, "sleep is not built yet");
   skip(list, "D", {"soak"}, "a million steps are not run yet");
   return list;

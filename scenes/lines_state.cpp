@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "scenes/allocations.h"
 #include "scenes/build.h"
 #include "scenes/catalogue.h"
 #include "scenes/trials.h"
@@ -152,10 +153,27 @@ std::vector<Figure> churn(const Settings& settings) {
           holds("finite", first.finite)};
 }
 
+// A settled scene's steps, after as many as it takes for every buffer to have grown.
+std::vector<Figure> noAllocation(const Settings& settings) {
+  std::vector<Figure> figures;
+  for (const char* name : {"stacks", "chain", "card_house", "heavy_on_light"}) {
+    Model model = find(name)->make(settings);
+    for (int i = 0; i < 120; ++i) model.world.step(static_cast<float>(kDt));
+    const uint64_t before = allocationCount()();
+    for (int i = 0; i < 60; ++i) model.world.step(static_cast<float>(kDt));
+    const uint64_t made = allocationCount()() - before;
+    figures.push_back(atMost("allocations", static_cast<double>(made), 0, "in 60 steps", std::string("scene=") + name));
+  }
+  return figures;
+}
+
 }  // namespace
 
 std::vector<Line> stateLines() {
+  const Line counted = allocationCount() ? Line{"D", "no_allocation", noAllocation, ""}
+                                         : Line{"D", "no_allocation", {}, "this program does not count allocations"};
   return {
+      counted,
       {"D", "same_bits", sameBits, ""},
       {"D", "unrelated", unrelated, ""},
       {"D", "churn", churn, ""},

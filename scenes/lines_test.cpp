@@ -1,7 +1,30 @@
 // Every line of acceptance is a test: it fails if one of its figures does.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "scenes/allocations.h"
 #include "scenes/scene.h"
+
+namespace {
+std::atomic<uint64_t> allocations{0};
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
+  if (void* p = std::aligned_alloc(alignment, whole ? whole : alignment)) return p;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t a) { return counted(size, static_cast<std::size_t>(a)); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 
 namespace avbd::scenes {
 namespace {
@@ -19,6 +42,7 @@ TEST_P(Acceptance, Line) {
 }
 
 std::vector<const Line*> everyLine() {
+  lendAllocationCount([] { return allocations.load(); });
   std::vector<const Line*> list;
   for (const Line& line : lines()) list.push_back(&line);
   return list;

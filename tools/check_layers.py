@@ -46,8 +46,8 @@ def refusal(path, target):
         return f"{path.parts[1]} is below {target.parts[1]}" if other > own else None
     if what in AROUND.get(where, ()):
         return None
-    # A unit test may look inside the library for an independent answer.
-    return None if path.stem.endswith("_test") else f"{where} may not include {what}"
+    # A unit test or a micro-benchmark may look inside the library.
+    return None if path.stem.endswith(("_test", "_bench")) else f"{where} may not include {what}"
 
 
 def cycles(graph):

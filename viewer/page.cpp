@@ -1,8 +1,6 @@
 // Writes a recording as one HTML file: the bundled viewer, a JSON head, and the frames in base64.
 #include "viewer/page.h"
 
-#include "viewer/encode.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "viewer/encode.h"
 
 namespace avbd {
 
@@ -84,14 +84,24 @@ struct Bounds {
   }
 };
 
-/// The page computes in float about this point; zero unless the scene lies far out.
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The page computes in float about this point, the middle of the crowd; zero unless the scene lies far out.
 Vec3d originOf(const Recording& r) {
-  Bounds bounds;
+  std::vector<double> x, y, z;
   for (size_t i = 0; i < r.bodies.size(); ++i) {
-    if (r.bodies[i].type != BodyType::Static) bounds.add(r.frames[0].poses[i].position);
+    const Vec3d p = r.frames[0].poses[i].position;
+    if (r.bodies[i].type == BodyType::Static || !finite(p)) continue;
+    x.push_back(p.x);
+    y.push_back(p.y);
+    z.push_back(p.z);
   }
-  if (!(bounds.low.x <= bounds.high.x)) return {};
-  const Vec3d middle = (bounds.low + bounds.high) * 0.5;
+  if (x.empty()) return {};
+  const Vec3d middle{median(std::move(x)), median(std::move(y)), median(std::move(z))};
   return length(middle) < 1000 ? Vec3d{} : middle;
 }
 

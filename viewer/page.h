@@ -1,16 +1,16 @@
 // Writes a recording as one HTML file that plays it in a browser, with no network and no other file.
 #pragma once
 
-#include "viewer/recording.h"
-
 #include <filesystem>
 #include <ostream>
+
+#include "viewer/recording.h"
 
 namespace avbd {
 
 struct PageOptions {
-  /// Contact points stored over all frames (about 17 bytes of file each). A longer recording keeps the strongest ones of
-  /// each frame, and the page says how many it shows of how many.
+  /// Contact points stored over all frames (about 17 bytes of file each). A longer recording keeps the strongest ones
+  /// of each frame, and the page says how many it shows of how many.
   size_t contactsMax = 600'000;
 };
 

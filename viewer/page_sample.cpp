@@ -1,8 +1,8 @@
 // Writes made-up recordings for the browser test: page_sample FILE.html [pyramid | pile | hostile].
-#include "viewer/page.h"
-
 #include <cmath>
 #include <iostream>
+
+#include "viewer/page.h"
 
 namespace avbd {
 namespace {
@@ -46,8 +46,8 @@ Recording pyramid() {
     }
   }
   for (int i = 0; i < 3; ++i) {
-    const uint32_t link =
-        add(r, "link_" + std::to_string(i), BodyType::Dynamic, Capsule{0.12f, 0.3f}, {{}, turn({1, 0, 0}, 1.57079633f)});
+    const uint32_t link = add(r, "link_" + std::to_string(i), BodyType::Dynamic, Capsule{0.12f, 0.3f},
+                              {{}, turn({1, 0, 0}, 1.57079633f)});
     r.joints.push_back({i == 0 ? 1u : link - 1, link, i == 0 ? Vec3d{0, -0.4, 2.4} : Vec3d{0, 0, -0.45}, {0, 0, 0.45}});
   }
   add(r, "ball_heavy", BodyType::Dynamic, Sphere{0.45f});
@@ -88,7 +88,8 @@ void addPyramidFigures(RecordedFrame& f, double t) {
       const Pose& pose = f.poses[static_cast<size_t>(3 + row * 10 - row * (row - 1) / 2 + i)];
       for (int corner = 0; corner < 4; ++corner) {
         const Vec3d arm{corner % 2 == 0 ? -0.2 : 0.2, corner < 2 ? -0.2 : 0.2, -0.25};
-        f.contacts.push_back({pose.position + rotate(pose.rotation, arm), {4.0f * static_cast<float>(corner), 0, 60.0f * (10 - row)}});
+        f.contacts.push_back(
+            {pose.position + rotate(pose.rotation, arm), {4.0f * static_cast<float>(corner), 0, 60.0f * (10 - row)}});
       }
     }
   }
@@ -106,8 +107,8 @@ Recording pyramidRun() {
     addPyramidFigures(f, f.time);
     r.frames.push_back(std::move(f));
   }
-  r.report = {{"bodies", "60 dynamic, 3 static"}, {"contact points", "220"}, {"steps", "240 of 16.67 ms"},
-              {"step time, median", "0.412 ms"}, {"step time, p95", "0.655 ms"}, {"real-time factor", "40.5"},
+  r.report = {{"bodies", "60 dynamic, 3 static"}, {"contact points", "220"},         {"steps", "240 of 16.67 ms"},
+              {"step time, median", "0.412 ms"},  {"step time, p95", "0.655 ms"},    {"real-time factor", "40.5"},
               {"penetration, largest", "4.1 mm"}, {"joint gap, largest", "0.02 mm"}, {"hash", "6f1e0c93a7d2b845"}};
   return r;
 }
@@ -148,8 +149,11 @@ Recording hostile() {
   add(r, "", BodyType::Kinematic, Capsule{0.2f, 0});
   r.bodies.push_back({"no shape", BodyType::Dynamic});
   RecordedFrame f;
-  f.poses = {{{1e6, 1e6, -1e6}, {}}, {{1e6 + 1, 1e6 + 1, -1e6}, {}}, {{NAN, 0, 0}, {NAN, 0, 0, 0}},
-             {{1e6 - 1, 1e6 + 2, -1e6 + 2}, {0, 0, 0, 0}}, {{1e6, 1e6, 1e6}, {}}};
+  f.poses = {{{1e6, 1e6, -1e6}, {}},
+             {{1e6 + 1, 1e6 + 1, -1e6}, {}},
+             {{NAN, 0, 0}, {NAN, 0, 0, 0}},
+             {{1e6 - 1, 1e6 + 2, -1e6 + 2}, {0, 0, 0, 0}},
+             {{1e6, 1e6, 1e6}, {}}};
   f.contacts = {{{NAN, 0, 0}, {INFINITY, 0, 0}}, {{1e6, 1e6, -1e6}, {0, 1e30f, 0}}};
   f.kineticEnergy = NAN;
   f.penetrationMax = INFINITY;

@@ -7,17 +7,21 @@
 // both, their nearest points do: a bound of the distance, taken for a gap, would stop bodies short of each other.
 #include "collide/box_pair.h"
 
+#include <limits>
+
 namespace avbd {
 namespace {
 
 constexpr float kTolerance = 1e-3f;   // of the thinnest half extent
 constexpr float kRelative = 0.02f;    // of the separation: what an edge must be better by
+constexpr float kSameDirection = 0.995f;  // cosine between an edge axis and a face's normal that may stand for it
 constexpr float kRounding = 4e-7f;    // of the lengths that an edge's separation is the difference of
 constexpr float kShortAxis = 1e-6f;   // squared sine below which edges count as parallel
 
 struct FaceAxis {
   int axis = -1;
   float separation = 0;
+  bool ofB = false;
 };
 
 BoxPair makePair(const ShapePair& s, const Mat3& a) {
@@ -57,10 +61,10 @@ bool faceAxes(const BoxPair& p, FaceAxis& a, FaceAxis& b) {
   }
   if (sb[0] > p.margin || sb[1] > p.margin || sb[2] > p.margin) return false;
   a = {0, sa[0]};
-  b = {0, sb[0]};
+  b = {0, sb[0], true};
   for (int i = 1; i < 3; ++i) {
     if (sa[i] > a.separation) a = {i, sa[i]};
-    if (sb[i] > b.separation) b = {i, sb[i]};
+    if (sb[i] > b.separation) b = {i, sb[i], true};
   }
   return true;
 }
@@ -153,22 +157,45 @@ void place(const Mat3& box, Vec3 center, Manifold& out) {
   for (int k = 0; k < out.count; ++k) out.points[k].position = center + mul(box, out.points[k].position);
 }
 
-/// Points on the best face, in the pair's frame. False if they are not the nearest points of two boxes that are apart.
-bool touchFace(const ShapePair& s, const Mat3& a, const BoxPair& p, const FaceAxis& face, bool ofB, Manifold& out) {
-  const FaceView view = viewOf(p, ofB, face.axis);
+/// The best face's normal in a's frame, from a to b.
+Vec3 normalOf(const BoxPair& p, const FaceAxis& face) {
+  const int k = face.axis;
+  if (face.ofB) return Vec3{p.r[0][k], p.r[1][k], p.r[2][k]} * (p.db[k] < 0 ? -1.0f : 1.0f);
+  Axes n{};
+  n[k] = p.da[k] < 0 ? -1.0f : 1.0f;
+  return vec(n);
+}
+
+/// Points on the best face, in the pair's frame. Returns the smallest separation of the part of the other box's face
+/// that lies over this one; infinite if none does.
+float touchFace(const ShapePair& s, const Mat3& a, const BoxPair& p, const FaceAxis& face, Manifold& out) {
+  const FaceView view = viewOf(p, face.ofB, face.axis);
   FacePoints found;
   clipFace(view, found);
   Axes n{};
-  n[face.axis] = (view.face & 1) == (ofB ? 0 : 1) ? 1.0f : -1.0f;  // from a to b
+  n[face.axis] = (view.face & 1) == (face.ofB ? 0 : 1) ? 1.0f : -1.0f;  // from a to b
   out.normal = vec(n);
   out.count = found.count;
-  const uint32_t name = 0x20000u | (ofB != s.swapped ? 1u << 12 : 0u);
+  const uint32_t name = 0x20000u | (face.ofB != s.swapped ? 1u << 12 : 0u);
   for (int k = 0; k < found.count; ++k) {
     out.points[k] = found.points[k];
     out.points[k].feature |= name;
   }
-  place(ofB ? matrix(s.poseB.q) : a, ofB ? s.poseB.p : s.poseA.p, out);
-  return found.count > 0 && (face.separation <= 0 || found.lowest <= face.separation + p.tolerance);
+  place(face.ofB ? matrix(s.poseB.q) : a, face.ofB ? s.poseB.p : s.poseA.p, out);
+  return found.count > 0 ? found.lowest : std::numeric_limits<float>::infinity();
+}
+
+/// Points of the edge axis. Where a face of almost the same direction shows the same gap, its points are better: edges
+/// cross there, too, but in several places at once. False if the edges are not the nearest points.
+bool touchEdgesOrFace(const ShapePair& s, const Mat3& a, const BoxPair& p, const FaceAxis& face, const EdgeAxis& edge,
+                      Manifold& out) {
+  if (dot(normalOf(p, face), edge.normal) > kSameDirection) {
+    const float lowest = touchFace(s, a, p, face, out), slack = p.tolerance + kRelative * magnitude(edge.separation);
+    if (out.count > 1 && magnitude(lowest - edge.separation) <= slack) return true;
+  }
+  const bool exact = touchEdges(p, edge, s.swapped, out);
+  place(a, s.poseA.p, out);
+  return exact;
 }
 
 /// The best axis did not lead to nearest points: those themselves, unless the points of a face are as near. `best` is
@@ -208,20 +235,13 @@ void collideBoxBox(const ShapePair& s, Manifold& out) {
   const BoxPair p = makePair(s, a);
   FaceAxis faceA, faceB;
   if (!faceAxes(p, faceA, faceB)) return;
-  const float slack = p.tolerance;
-  const bool ofB = faceB.separation > faceA.separation + slack;
-  const FaceAxis& face = ofB ? faceB : faceA;
+  const FaceAxis& face = faceB.separation > faceA.separation + p.tolerance ? faceB : faceA;
   EdgeAxis edge;
-  if (!edgeAxes(p, face.separation + slack + kRelative * magnitude(face.separation), edge)) return;
+  if (!edgeAxes(p, face.separation + p.tolerance + kRelative * magnitude(face.separation), edge)) return;
   const bool isFace = edge.i < 0;
-  bool exact;
-  if (isFace) {
-    exact = touchFace(s, a, p, face, ofB, out);
-  } else {
-    exact = touchEdges(p, edge, s.swapped, out);
-    place(a, s.poseA.p, out);
-  }
   const float best = isFace ? face.separation : edge.separation;
+  const bool exact = isFace ? touchFace(s, a, p, face, out) <= larger(best, 0) + p.tolerance
+                            : touchEdgesOrFace(s, a, p, face, edge, out);
   if (!exact && (best > 0 || out.count == 0)) touchOtherwise(s, a, p, best, isFace, out);
 }
 

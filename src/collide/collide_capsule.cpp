@@ -52,7 +52,8 @@ void addAlong(const Core& a, const Core& b, const ShapePair& pair, float radiusA
   for (int end = 0; end < 2; ++end) {
     const float s = end == 0 ? o.low : o.high, t = clampTo((s - ad) / cosine, -b.reach, b.reach);
     const Vec3 p = a.center + a.axis * s, w = b.center + b.axis * t - p;
-    const float height = dot(w, out.normal), side2 = larger(dot(w, w) - height * height, 0);
+    // Of cores that cross, one end lies beyond the other: no deeper than in line.
+    const float height = larger(dot(w, out.normal), 0), side2 = larger(dot(w, w) - height * height, 0);
     const float separation = height - std::sqrt(larger(sum * sum - side2, 0));
     if (separation > pair.margin) continue;
     // Which end it is: of a, or of b.

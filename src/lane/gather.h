@@ -6,7 +6,10 @@
 // the same bits at every width.
 #pragma once
 
-#include "avbd/rows/math.h"
+#include <avbd/rows/math.h>
+
+#include <cstddef>
+
 #include "lane/wide.h"
 
 namespace avbd::lane {

@@ -23,18 +23,24 @@ void publishBodies(WorldData& world, const StepData& step) {
   }
 }
 
+bool insideCone(const rows::ContactPointRows<float>& p) {
+  const float friction = p.lambda1 * p.lambda1 + p.lambda2 * p.lambda2;
+  const float bound = kSlipping * p.mu * p.lambdaN;
+  return friction < bound * bound;
+}
+
 void publishContacts(WorldData& world, const StepData& step) {
   for (size_t lane = 0; lane < step.contactPair.size(); ++lane) {
     if (step.contactPair[lane] == kNone) continue;
     PairData& pair = world.pairs[step.contactPair[lane]];
     const rows::Contact<float> c = step.contacts[lane / kTile].get(lane % kTile);
+    pair.slides = true;
     for (int i = 0; i < pair.pointCount; ++i) {
       PointMemory& point = pair.points[i];
       const rows::ContactPointRows<float>& p = c.point[i];
       point.lambda = {p.lambdaN, p.lambda1, p.lambda2};
-      const float friction = p.lambda1 * p.lambda1 + p.lambda2 * p.lambda2;
-      const float bound = kSlipping * p.mu * p.lambdaN;
-      point.sticks = friction < bound * bound ? 1 : 0;
+      point.sticks = insideCone(p) ? 1 : 0;
+      if (point.sticks) pair.slides = false;
     }
   }
 }

@@ -30,6 +30,7 @@ void addBodies(const WorldData& world, StepData& step, BatchRange& batch) {
     const Island& island = step.islands[batch.islandBegin + n];
     IslandRange range;
     range.begin = batch.bodies;
+    const uint32_t lockedBefore = batch.lockedCount;
     for (uint32_t i = 0; i < island.bodyCount; ++i) {
       const uint32_t slot = step.order[island.bodyBegin + i];
       if (world.bodies[slot].locks) {
@@ -40,7 +41,7 @@ void addBodies(const WorldData& world, StepData& step, BatchRange& batch) {
       step.rowOf[slot] = batch.bodies++;
     }
     range.end = batch.bodies;
-    range.floating = island.floating;
+    range.floating = island.floating && batch.lockedCount == lockedBefore;
     range.coupled = island.pairCount > 0;
     step.ranges.push_back(range);
   }

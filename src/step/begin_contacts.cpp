@@ -26,7 +26,7 @@ rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& 
   p.biasN = normalBias(world, step, pair.manifold.points[i].separation);
   p.bias1 = (1 - step.alpha) * dot(slip, pair.t1);
   p.bias2 = (1 - step.alpha) * dot(slip, pair.t2);
-  p.mu = memory.sticks ? pair.staticFriction : pair.friction;
+  p.mu = pair.slides ? pair.friction : pair.staticFriction;
   p.lambdaN = leak * memory.lambda.x;
   p.lambda1 = leak * memory.lambda.y;
   p.lambda2 = leak * memory.lambda.z;

@@ -169,7 +169,7 @@ class Churn {
   void run(int count) {
     for (int i = 0; i < count; ++i) {
       act();
-      if (i % 16 == 0) {
+      if (i % 8 == 0) {
         expectConsistent(data_);
         if (testing::Test::HasFatalFailure()) return;
       }
@@ -191,7 +191,8 @@ class Churn {
 
   void act() {
     const uint32_t choice = random_() % 16;
-    if (choice < 4 || data_.bodyIds.count() < 8) {
+    const size_t count = data_.bodyIds.count();
+    if ((choice < 4 && count < 24) || count < 8) {
       const BodyType type = random_() % 4 ? BodyType::Dynamic : BodyType::Static;
       std::vector<ShapeDef> shapes(1 + random_() % 3);
       make(data_, {.type = type, .position = place().position, .shapes = shapes});

@@ -109,6 +109,7 @@ TEST(StateHash, SeesEveryFieldThatAStepChanges) {
       [](WorldData& d) { d.joints[0].lambda[5] = 1; },
       [](WorldData& d) { d.pairs[0].normal.x = 1; },
       [](WorldData& d) { d.pairs[0].pointCount = 0; },
+      [](WorldData& d) { d.pairs[0].slides = true; },
       [](WorldData& d) { d.pairs[0].points[0].lambda.y = 1; },
       [](WorldData& d) { d.pairs[0].points[0].anchorA.y = 1; },
       [](WorldData& d) { d.pairs[0].points[0].anchorB.y = 1; },

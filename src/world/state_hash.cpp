@@ -31,6 +31,7 @@ void add(Hash64& hash, const PairData& pair) {
   hash.value(pair.t1);
   hash.value(pair.t2);
   hash.value(pair.pointCount);
+  hash.value(pair.slides);
   for (int i = 0; i < pair.pointCount; ++i) add(hash, pair.points[i]);
 }
 

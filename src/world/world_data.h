@@ -77,12 +77,13 @@ struct PointMemory {
 struct PairData {
   uint32_t shapeA = 0, shapeB = 0;  ///< slots, A < B
   uint32_t bodyA = 0, bodyB = 0;    ///< slots
-  Vec3d origin;                     ///< A's centre of mass at the start of the step
-  Manifold manifold;                ///< positions relative to origin
-  Vec3 normal, t1, t2;              ///< basis that the memories are given in
-  PointMemory points[kMaxManifoldPoints];
+  Vec3d origin{};                   ///< A's centre of mass at the start of the step
+  Manifold manifold{};              ///< positions relative to origin
+  Vec3 normal{}, t1{}, t2{};        ///< basis that the memories are given in
+  PointMemory points[kMaxManifoldPoints]{};
   int32_t pointCount = 0;                                   ///< of `points`: those of the last step
   float staticFriction = 0, friction = 0, restitution = 0;  ///< combined
+  bool slides = false;  ///< every point slipped in the last step: friction is dynamic
   uint64_t key() const { return uint64_t(shapeA) << 32 | shapeB; }
 };
 

@@ -49,8 +49,9 @@ const kGeometries = {
   box: () => new THREE.BoxGeometry(2, 2, 2),
   sphere: (detail) => new THREE.SphereGeometry(1, Math.round(36 * detail), Math.round(24 * detail)),
   tube: (detail) => new THREE.CylinderGeometry(1, 1, 2, Math.round(32 * detail), 1, true),
-  cap: (detail) => new THREE.SphereGeometry(1, Math.round(32 * detail), Math.round(12 * detail), 0, 2 * Math.PI, 0,
-                                            Math.PI / 2),
+  // A little more than half, so that no gap shows between cap and tube.
+  cap: (detail) => new THREE.SphereGeometry(1, Math.round(32 * detail), Math.round(13 * detail), 0, 2 * Math.PI, 0,
+                                            0.54 * Math.PI),
 };
 
 class Instances {
@@ -63,7 +64,9 @@ class Instances {
     this.poses = Float32Array.from(items.flatMap((item) => item.pose));
     this.plain = Uint8Array.from(items, ({pose}) => (pose.slice(0, 6).every((value) => value === 0) ? 1 : 0));
     this.kind = kind;
-    this.mesh = new THREE.InstancedMesh(undefined, kind === 'box' ? bevelled() : striped(), items.length);
+    const patch = kind === 'box' ? bevelled : striped;
+    this.materials = [patch(false), patch(true)];
+    this.mesh = new THREE.InstancedMesh(undefined, this.materials[1], items.length);
     this.mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
     this.mesh.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * items.length), 3);
     this.mesh.castShadow = this.mesh.receiveShadow = true;
@@ -138,9 +141,12 @@ export class Bodies {
     for (const set of this.sets) this.group.add(set.mesh);
   }
 
-  setDetail(most) {
+  setQuality(most, rich) {
     const detail = Math.min(most, detailFor(this.recording.shapes.length));
-    for (const set of this.sets) set.setDetail(detail);
+    for (const set of this.sets) {
+      set.setDetail(detail);
+      set.mesh.material = set.materials[rich ? 1 : 0];
+    }
   }
 
   /// All poses, once; then `move` for those that change.

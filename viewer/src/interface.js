@@ -39,6 +39,7 @@ function iconButton(name, title, className = 'icon') {
   return make('button', {type: 'button', class: className, title, 'aria-label': title}, icon(name));
 }
 
+const counted = (count, noun) => `${count} ${noun}${count === 1 ? '' : 's'}`;
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 4];
 const kKeys = [
   ['Space', 'play or pause'], ['← →', 'one frame back or on; with Shift ten'], ['Home End', 'first or last frame'],
@@ -67,8 +68,8 @@ export class Interface {
     const moving = recording.bodyCount - still;
     const length = recording.times[recording.frameCount - 1] - recording.times[0];
     const facts = [`${moving} moving`, `${still} static`];
-    if (recording.joints.length > 0) facts.push(`${recording.joints.length} joints`);
-    facts.push(`${recording.frameCount} frames`, `${Number(length.toFixed(2))} s`);
+    if (recording.joints.length > 0) facts.push(counted(recording.joints.length, 'joint'));
+    facts.push(counted(recording.frameCount, 'frame'), `${Number(length.toFixed(2))} s`);
     return make('header', {class: 'title'}, make('h1', {text: recording.title}),
                 make('p', {text: facts.join('  ·  ')}));
   }

@@ -165,7 +165,6 @@ class Viewer {
 /// What a test or a user's console may call.
 function publish(viewer) {
   const {player, stage, recording} = viewer;
-  window.debugViewer = viewer;
   window.avbdViewer = {
     recording: {bodies: recording.bodyCount, frames: recording.frameCount, names: recording.names},
     get time() { return player.time; },

@@ -1,4 +1,4 @@
-// Materials of bodies and ground: three's own with a few lines of shader added.
+// Materials of bodies and ground: three's own with a few lines of shader added. `rich` ones gloss, the others are cheap.
 import * as THREE from 'three';
 
 function patched(material, vertexHead, vertexBody, fragmentHead, replacements) {
@@ -10,14 +10,17 @@ function patched(material, vertexHead, vertexBody, fragmentHead, replacements) {
     shader.fragmentShader = fragment;
     Object.assign(shader.uniforms, material.userData.uniforms);
   };
-  material.customProgramCacheKey = () => fragmentHead + JSON.stringify(replacements);
+  material.customProgramCacheKey = () => material.type + fragmentHead + JSON.stringify(replacements);
   return material;
 }
 
+const surface = (rich, roughness) =>
+    (rich ? new THREE.MeshStandardMaterial({roughness, metalness: 0}) : new THREE.MeshLambertMaterial());
+
 /// Boxes: the normal rounds off towards the edges, as on a bevelled box of any proportions, without more triangles.
-export function bevelled() {
+export function bevelled(rich) {
   return patched(
-      new THREE.MeshLambertMaterial(),
+      surface(rich, 0.55),
       'attribute vec3 halfSize; varying vec3 vLocal; flat varying vec3 vHalf; flat varying mat3 vFrame;',
       `vLocal = position * halfSize; vHalf = halfSize;
        vFrame = normalMatrix * mat3(normalize(instanceMatrix[0].xyz), normalize(instanceMatrix[1].xyz),
@@ -35,14 +38,14 @@ export function bevelled() {
           float across = max(length(dFdx(vLocal)), length(dFdy(vLocal)));
           float thickness = 0.045 * min(vHalf.x, min(vHalf.y, vHalf.z));
           float line = 1.0 - smoothstep(thickness, thickness + across, second);
-          diffuseColor.rgb *= 1.0 - 0.28 * line * clamp(2.0 * thickness / across, 0.0, 1.0);`],
+          diffuseColor.rgb *= 1.0 - 0.22 * line * clamp(2.0 * thickness / across, 0.0, 1.0);`],
       ]);
 }
 
 /// Spheres and capsules: quarters in two tones, so that one sees them turn.
-export function striped() {
+export function striped(rich) {
   return patched(
-      new THREE.MeshLambertMaterial(), 'varying vec3 vLocal;', 'vLocal = position;',
+      surface(rich, 0.42), 'varying vec3 vLocal;', 'vLocal = position;',
       'varying vec3 vLocal;', [['#include <color_fragment>', `
           vec2 side = vLocal.xz / max(fwidth(vLocal.xz), vec2(1e-5));
           float tone = clamp(side.x, -1.0, 1.0) * clamp(side.y, -1.0, 1.0);

@@ -56,7 +56,7 @@ export class Player {
 
   apply(level) {
     this.viewer.stage.setQuality(level);
-    this.viewer.bodies.setDetail(kQualities[level].detail);
+    this.viewer.bodies.setQuality(kQualities[level].detail, kQualities[level].rich);
     this.viewer.marks.setPixelRatio(this.viewer.stage.renderer.getPixelRatio());
     this.streak = 0;
     this.touch(true);
@@ -118,13 +118,17 @@ export class Player {
       if (list.length > 120) list.shift();
     }
     this.streakTime = this.streak === 0 ? 0 : this.streakTime + gap;
-    if (++this.streak <= kJudged) return;
+    if (++this.streak > kJudged || (this.streak > 4 && this.streakTime > 1200)) this.judge();
+  }
+
+  judge() {
     const mean = this.streakTime / (this.streak - 1);
-    this.viewer.interface.rate.textContent = `${Math.round(1000 / mean)} pictures/s`;
-    const {quality} = this.viewer.stage;
-    const slower = this.automatic && mean > kSlow && quality + 1 < kQualities.length;
-    if (slower) this.apply(quality + 1);
-    else this.streak = 0;
+    this.streak = 0;
+    this.viewer.interface.rate.textContent = `${Math.round(1000 / mean)} fps`;
+    if (!this.automatic || mean < kSlow) return;
+    const next = this.viewer.stage.quality + (mean > 4 * kSlow ? 2 : 1);
+    const level = Math.min(next, kQualities.length - 1);
+    if (level !== this.viewer.stage.quality) this.apply(level);
   }
 
   stats() {

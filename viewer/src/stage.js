@@ -4,21 +4,20 @@ import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {ground} from './materials.js';
 
 const kThemes = {
-  dark: {top: 0x0c1118, horizon: 0x2b3542, ground: 0x39434f, line: 0xb4c6da, strength: 0.2, sky: 0xd5e2f5,
-         bounce: 0x4a4f58, ambient: 1.25, sun: 2.5},
+  dark: {top: 0x10151b, horizon: 0x323a45, ground: 0x484f59, line: 0xc3cfdc, strength: 0.17, sky: 0xeaf1fb,
+         bounce: 0x757a82, ambient: 1.75, sun: 2.3},
   light: {top: 0x9fbfe0, horizon: 0xe6ecf2, ground: 0xdde3ea, line: 0x62748a, strength: 0.34, sky: 0xffffff,
-          bounce: 0xb9bcc2, ambient: 1.5, sun: 2.2},
+          bounce: 0xb9bcc2, ambient: 1.8, sun: 2.1},
 };
 /// From the best picture to the cheapest; `auto` walks down when frames take too long.
 export const kQualities = [
-  {pixels: 2, shadows: 2048, detail: 1},
-  {pixels: 1, shadows: 2048, detail: 1},
+  {pixels: 2, shadows: 2048, detail: 1, rich: true},
+  {pixels: 1, shadows: 2048, detail: 1, rich: true},
   {pixels: 1, shadows: 1024, detail: 0.6},
   {pixels: 0.75, shadows: 0, detail: 0.28},
   {pixels: 0.5, shadows: 0, detail: 0.2},
 ];
 const kShadowBodies = 3000;
-const kSunDirection = new THREE.Vector3(0.52, 1, 0.44).normalize();
 
 /// Fog and background are final screen colours, so the sky writes them unconverted.
 const screenColor = (hex) => new THREE.Vector3((hex >> 16) & 255, (hex >> 8) & 255, hex & 255).divideScalar(255);
@@ -57,7 +56,9 @@ function drawsInSoftware() {
 
 export class Stage {
   constructor(canvas, recording, box) {
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: false, powerPreference: 'high-performance'});
+    this.software = drawsInSoftware();
+    this.renderer =
+        new THREE.WebGLRenderer({canvas, antialias: !this.software, powerPreference: 'high-performance'});
     this.renderer.toneMapping = THREE.NeutralToneMapping;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
@@ -95,8 +96,11 @@ export class Stage {
     this.extent = box.getSize(new THREE.Vector3());
     this.radius = Math.max(0.5 * this.extent.length(), 1e-3);
     const {sun, center, radius} = this;
+    // From above and behind the first view's left shoulder.
+    this.broadside = this.extent.x >= this.extent.z;
+    const from = this.broadside ? new THREE.Vector3(-0.45, 1, 0.72) : new THREE.Vector3(0.72, 1, 0.45);
     sun.target.position.copy(center);
-    sun.position.copy(center).addScaledVector(kSunDirection, 4 * radius);
+    sun.position.copy(center).addScaledVector(from.normalize(), 4 * radius);
     const reach = 1.5 * radius;
     Object.assign(sun.shadow.camera, {left: -reach, right: reach, top: reach, bottom: -reach, near: 0.5 * radius,
                                       far: 8 * radius});
@@ -185,7 +189,7 @@ export class Stage {
   /// Looks at the scene from its broad side, a little from above.
   resetView() {
     const {extent, center, camera, controls} = this;
-    const along = extent.x >= extent.z ? new THREE.Vector3(0.5, 0.36, 1) : new THREE.Vector3(1, 0.36, 0.5);
+    const along = this.broadside ? new THREE.Vector3(0.5, 0.36, 1) : new THREE.Vector3(1, 0.36, -0.5);
     const half = Math.tan((camera.fov * Math.PI) / 360);
     const wide = Math.hypot(extent.x, extent.z) * 0.5, aspect = this.width ? this.width / this.height : 1.6;
     const distance = 1.12 * Math.max(0.5 * extent.y / half, wide / (half * aspect)) + 0.3 * this.radius;

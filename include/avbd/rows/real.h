@@ -81,8 +81,8 @@ AVBD_INLINE SinCos<R> sinCos(R x) {
   // Minimax on [-pi/4, pi/4], relative error 4e-9 and 1e-10.
   const R s = r + r * z * (-0.16666655f + z * (0.008332156f + z * -0.00019514632f));
   const R c = (1.0f - z * 0.5f) + z * z * (0.041666646f + z * (-0.0013887309f + z * 2.4432413e-05f));
-  const R quarter = abs(k - 4.0f * nearest(k * 0.25f));  // 0, 1 or 2: the quadrant but for its sign
-  const R turn = k - 4.0f * nearest(k * 0.25f);
+  const R turn = k - 4.0f * nearest(k * 0.25f);  // quadrant, -2 .. 2
+  const R quarter = abs(turn);
   const auto odd = quarter == 1.0f;
   const auto half = quarter == 2.0f;
   const R sinOdd = select(turn > 0.0f, c, -c);

@@ -1,0 +1,117 @@
+// The grammar of the command line.
+#include "app/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "app/failure.h"
+
+namespace avbd::cli {
+namespace {
+
+constexpr const char* kSolver = "Solver";
+
+void addSettings(CLI::App& command, scenes::Settings& s, std::string& solver) {
+  command.add_option("--workers", s.workers, "threads [1]")->group(kSolver);
+  command.add_option("--substeps", s.substeps, "substeps of a step [1]")->group(kSolver);
+  command.add_option("--iterations", s.iterations, "outer iterations of a substep [4]")->group(kSolver);
+  command.add_option("--solver", solver, "krylov or sweep [krylov]")
+      ->check(CLI::IsMember({"krylov", "sweep"}))
+      ->group(kSolver);
+  command.add_option("--krylov", s.krylovIterations, "conjugate-gradient steps of an iteration; 0 for the default")
+      ->group(kSolver);
+  command.add_option("--simd", s.simdWidth, "lanes: 1, 4, 8 or 16; 0 for the widest")
+      ->check(CLI::IsMember({0, 1, 4, 8, 16}))
+      ->group(kSolver);
+}
+
+void setSolver(scenes::Settings& s, const std::string& solver) {
+  if (!solver.empty()) s.primalSolver = solver == "sweep" ? PrimalSolver::BlockSweep : PrimalSolver::Krylov;
+}
+
+// The bounds of settings are the library's own; a world that refuses them does so before anything has happened.
+void checkSettings(const scenes::Settings& s) { World(scenes::apply(s)); }
+
+CLI::App* addRun(CLI::App& app, RunArguments& a, std::string& solver) {
+  CLI::App* run = app.add_subcommand("run", "Simulate a MJCF file or a built-in scene and report");
+  run->add_option("scene", a.scene, "FILE.xml, or a name that `avbd scenes` lists")->required();
+  run->add_option("--time", a.time, "simulated time [s]; else the scene's own");
+  run->add_option("--dt", a.dt, "step [s]; else the file's or scene's own");
+  run->add_option("--keyframe", a.keyframe, "keyframe of the file to start at; else its first one");
+  run->add_option("--html", a.html, "write a page that plays the run");
+  run->add_option("--poses", a.poses, "write poses of body frames as CSV, in the file's world frame");
+  run->add_option("--fps", a.fps, "row sets of the CSV per simulated second [60]");
+  run->add_flag("--json", a.json, "the report as one JSON object");
+  run->add_flag_callback(
+      "--no-report", [&a] { a.report = false; }, "no report");
+  addSettings(*run, a.settings, solver);
+  return run;
+}
+
+CLI::App* addBench(CLI::App& app, BenchArguments& a, std::string& solver, std::string& peer) {
+  CLI::App* bench = app.add_subcommand("bench", "Time scenes and measure their errors; exit status 1 if a check fails");
+  bench->add_option("scene", a.scenes, "names that `avbd scenes` lists")->required();
+  bench->add_option("--peer", peer, "another engine to run beside: bullet")->check(CLI::IsMember({"bullet"}));
+  bench->add_flag("--json", a.json, "a JSON object for each record");
+  addSettings(*bench, a.settings, solver);
+  return bench;
+}
+
+CLI::App* addVerify(CLI::App& app, VerifyArguments& a, std::string& solver) {
+  CLI::App* verify = app.add_subcommand("verify", "Measure the lines of acceptance; exit status 1 if one fails");
+  verify->add_option("name", a.names, "lists (R, J, A, S, D) or lines; else all");
+  verify->add_flag("--json", a.json, "a JSON object for each record");
+  addSettings(*verify, a.settings, solver);
+  return verify;
+}
+
+// CLI11's options take any number of values where a vector stands behind them, also after other options.
+std::string oneMessage(const CLI::ParseError& e) {
+  std::string text = e.what();
+  return text.empty() ? e.get_name() : text;
+}
+
+}  // namespace
+
+Arguments parseArguments(std::vector<std::string> args) {
+  CLI::App app("AVBD: a 3D physics engine around one solver", "avbd");
+  app.set_version_flag("--version", "avbd " AVBD_VERSION);
+  app.require_subcommand(1);
+  RunArguments run;
+  BenchArguments bench;
+  VerifyArguments verify;
+  std::string solver, peer;
+  CLI::App* runApp = addRun(app, run, solver);
+  CLI::App* benchApp = addBench(app, bench, solver, peer);
+  CLI::App* verifyApp = addVerify(app, verify, solver);
+  app.add_subcommand("scenes", "List the built-in scenes");
+  try {
+    std::reverse(args.begin(), args.end());
+    app.parse(args);
+  } catch (const CLI::CallForHelp&) {
+    return PrintText{app.help()};
+  } catch (const CLI::CallForVersion& e) {
+    return PrintText{std::string(e.what()) + "\n"};
+  } catch (const CLI::ParseError& e) {
+    throw BadInput(oneMessage(e) + " (avbd --help says more)");
+  }
+  if (runApp->parsed()) {
+    setSolver(run.settings, solver);
+    checkSettings(run.settings);
+    return run;
+  }
+  if (benchApp->parsed()) {
+    setSolver(bench.settings, solver);
+    checkSettings(bench.settings);
+    bench.bullet = !peer.empty();
+    return bench;
+  }
+  if (verifyApp->parsed()) {
+    setSolver(verify.settings, solver);
+    checkSettings(verify.settings);
+    return verify;
+  }
+  return ScenesArguments{};
+}
+
+}  // namespace avbd::cli

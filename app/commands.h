@@ -1,0 +1,19 @@
+// The commands. Each returns an exit status and throws what failure.h lists, Error or FileError.
+#pragma once
+
+#include <ostream>
+
+#include "app/arguments.h"
+
+namespace avbd::cli {
+
+int runCommand(const RunArguments& arguments, std::ostream& out, std::ostream& err);
+int scenesCommand(std::ostream& out);
+/// Each record is printed as soon as it is measured. A peer's failed check is shown but is no failure of ours.
+int benchCommand(const BenchArguments& arguments, std::ostream& out);
+int verifyCommand(const VerifyArguments& arguments, std::ostream& out);
+
+/// The catalogue's scene. Throws BadInput that lists near names.
+const scenes::Scene& sceneNamed(const std::string& name);
+
+}  // namespace avbd::cli

@@ -1,0 +1,62 @@
+// Measuring a run's end.
+#include "app/figures.h"
+
+#include <algorithm>
+
+#include "scenes/measure.h"
+
+namespace avbd::cli {
+namespace {
+
+double quantile(std::vector<float> values, double q) {
+  if (values.empty()) return 0;
+  const size_t k = std::min(values.size() - 1, static_cast<size_t>(q * static_cast<double>(values.size())));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
+  return static_cast<double>(values[k]);
+}
+
+}  // namespace
+
+void Clockwork::add(double seconds, const StepReport& report) {
+  milliseconds_.push_back(static_cast<float>(seconds * 1e3));
+  seconds_ += seconds;
+  for (size_t i = 0; i < kStageCount; ++i) stages_[i] += report.seconds[i];
+}
+
+void Clockwork::put(RunFigures& figures) const {
+  figures.msMedian = quantile(milliseconds_, 0.5);
+  figures.msP95 = quantile(milliseconds_, 0.95);
+  figures.realtimeFactor = seconds_ > 0 ? static_cast<double>(figures.steps) * figures.dt / seconds_ : 0;
+  double sum = 0;
+  for (const double s : stages_) sum += s;
+  for (size_t i = 0; i < kStageCount; ++i) figures.stageShare[i] = sum > 0 ? stages_[i] / sum : 0;
+}
+
+RunFigures measureRun(const Model& model, int64_t steps, double dt) {
+  const World& world = model.world;
+  const scenes::Layout layout = scenes::layoutOf(world);
+  const std::vector<Pose> poses = scenes::posesOf(world, layout);
+  const scenes::Penetration penetration = scenes::penetrationOf(layout, poses);
+  RunFigures f;
+  f.scene = model.name;
+  for (const BodyId id : layout.bodies) (world.type(id) == BodyType::Static ? f.statics : f.bodies) += 1;
+  f.shapes = world.shapeCount();
+  f.joints = world.jointCount();
+  f.contactPoints = world.report().points;
+  f.steps = steps;
+  f.dt = dt;
+  f.workers = world.definition().workers;
+  f.penetrationMax = penetration.max;
+  f.penetrationMean = penetration.mean;
+  f.jointGapMax = scenes::jointGapMax(layout, poses);
+  f.kineticEnergy = world.kineticEnergy();
+  f.finite = scenes::isFinite(world);
+  f.hash = world.hash();
+  f.simdWidth = world.report().simdWidth;
+  f.momentum = world.momentum();
+  f.angularMomentum = world.angularMomentum();
+  f.notes = model.notes;
+  return f;
+}
+
+}  // namespace avbd::cli

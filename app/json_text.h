@@ -1,0 +1,23 @@
+// Records as JSON objects on one line, without a line end. Numbers that are not finite become null.
+#pragma once
+
+#include <string>
+
+#include "app/figures.h"
+#include "bench/bench.h"
+
+namespace avbd::cli {
+
+/// One figure of a line of acceptance, or a line that is skipped.
+struct VerifyRecord {
+  std::string list, line;
+  scenes::Figure figure;
+  std::string status;  ///< "pass", "fail" or "skipped"
+  std::string reason;  ///< of "skipped"
+};
+
+std::string jsonText(const RunFigures& figures);
+std::string jsonText(const bench::BenchRecord& record);
+std::string jsonText(const VerifyRecord& record);
+
+}  // namespace avbd::cli

@@ -1,0 +1,165 @@
+// What users do between steps reaches the step: teleports, filters, exclusions, destruction, mass, forces.
+#include <avbd/avbd.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace avbd {
+namespace {
+
+constexpr float kDt = 1.0f / 60;
+
+void run(World& world, int steps) {
+  for (int i = 0; i < steps; ++i) world.step(kDt);
+}
+
+// A box of 1 kg resting on the ground.
+struct Resting : testing::Test {
+  World world;
+  BodyId ground = world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
+  BodyId box = world.create(BodyDef{.position = {0, 0.5, 0}, .shape = Box{}, .mass = 1});
+  double height() const { return world.pose(box).position.y; }
+  void expectFalls() {
+    run(world, 30);
+    EXPECT_LT(height(), -0.5);
+  }
+  void SetUp() override { run(world, 60); }
+};
+
+TEST_F(Resting, ContactsCarryTheWeight) {
+  const std::vector<Contact> contacts = world.contacts();
+  ASSERT_EQ(contacts.size(), 1u);
+  const Contact& contact = contacts[0];
+  EXPECT_EQ(contact.bodyA, ground);
+  EXPECT_EQ(contact.bodyB, box);
+  EXPECT_EQ(contact.shapeB, world.shapes(box)[0]);
+  EXPECT_EQ(contact.pointCount, 4);
+  EXPECT_NEAR(contact.normal.y, 1, 1e-5);
+  float force = 0;
+  for (const ContactPoint& point : contact.points) {
+    force += point.normalForce;
+    EXPECT_NEAR(point.position.y, 0, 0.01);
+    EXPECT_NEAR(std::abs(point.position.x), 0.5, 0.01);
+  }
+  EXPECT_NEAR(force, 9.81, 0.05);
+  EXPECT_NEAR(world.time(), 1, 1e-5);
+}
+
+TEST_F(Resting, FilterLetsItFallAndCatchesItAgain) {
+  const ShapeId shape = world.shapes(box)[0];
+  world.setFilter(shape, {.mask = 0});
+  EXPECT_TRUE(world.contacts().empty());
+  expectFalls();
+  world.setPose(box, {{0, 0.6, 0}, {}});
+  world.setVelocity(box, {});
+  world.setFilter(shape, {});
+  run(world, 60);
+  EXPECT_NEAR(height(), 0.5, 0.01);
+}
+
+TEST_F(Resting, ExclusionLetsItFall) {
+  world.excludeCollision(box, ground);
+  expectFalls();
+}
+
+TEST_F(Resting, GroundDestroyed) {
+  world.destroy(ground);
+  expectFalls();
+}
+
+TEST_F(Resting, GroundsShapeDestroyed) {
+  world.destroy(world.shapes(ground)[0]);
+  expectFalls();
+}
+
+TEST_F(Resting, GroundMovedAway) {
+  world.setPose(ground, {{0, -100, 0}, {}});
+  expectFalls();
+}
+
+TEST_F(Resting, TeleportForgetsTheContactAndFindsTheNext) {
+  world.setPose(box, {{50, 2, 0}, {}});
+  EXPECT_TRUE(world.contacts().empty());
+  run(world, 90);
+  EXPECT_NEAR(height(), 0.5, 0.01);
+  EXPECT_EQ(world.contacts().size(), 1u);
+}
+
+TEST_F(Resting, MassChangesInPlaceWithoutAJump) {
+  const double before = height();
+  world.setMassProperties(box, {.mass = 3, .center = {0.1f, -0.2f, 0}, .inertia = {0.5f, 0.5f, 0.5f, 0, 0, 0}});
+  EXPECT_NEAR(height(), before, 1e-6);
+  run(world, 60);
+  EXPECT_NEAR(height(), before, 0.005);
+  float force = 0;
+  for (const ContactPoint& point : world.contacts()[0].points) force += point.normalForce;
+  EXPECT_NEAR(force, 3 * 9.81, 0.15);
+}
+
+TEST_F(Resting, ForcesActOnce) {
+  world.setGravity({});
+  world.setPose(box, {{0, 10, 0}, {}});
+  world.setVelocity(box, {});
+  world.addForce(box, {60, 0, 0});
+  run(world, 1);
+  EXPECT_NEAR(world.velocity(box).linear.x, 1, 1e-4);
+  run(world, 5);
+  EXPECT_NEAR(world.velocity(box).linear.x, 1, 1e-4);
+}
+
+TEST_F(Resting, JointExcludesItsPairOnlyWhileItLives) {
+  const JointId pin = world.create(BallJoint{.bodyA = ground, .bodyB = box, .frameA = {{0, 0.2, 0}, {}}});
+  run(world, 60);
+  EXPECT_TRUE(world.contacts().empty());
+  EXPECT_NEAR(height(), 0.2, 0.01) << "held inside the ground by the joint";
+  world.setPose(box, {{0, 0.5, 0}, {}});
+  world.setVelocity(box, {});
+  world.destroy(pin);
+  run(world, 60);
+  EXPECT_NEAR(height(), 0.5, 0.01);
+  EXPECT_EQ(world.contacts().size(), 1u);
+}
+
+// Destroys, makes and moves in the middle of a run.
+uint64_t churnedHash(int workers) {
+  World world({.workers = workers});
+  world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
+  std::mt19937 random(3);
+  const auto make = [&] {
+    const Vec3d place{double(random() % 4), 1 + double(random() % 8), double(random() % 4)};
+    return world.create(BodyDef{.position = place, .shape = Box{0.4f, 0.4f, 0.4f}});
+  };
+  std::vector<BodyId> bodies;
+  for (int i = 0; i < 40; ++i) bodies.push_back(make());
+  for (int i = 0; i < 300; ++i) {
+    const size_t at = random() % bodies.size(), other = random() % bodies.size();
+    switch (random() % 5) {
+      case 0:
+        world.destroy(bodies[at]);
+        bodies[at] = make();
+        break;
+      case 1:
+        world.setPose(bodies[at], {{double(random() % 4), 9, double(random() % 4)}, {}});
+        break;
+      case 2:
+        if (at != other) world.create(BallJoint{bodies[at], bodies[other], {{0, 0.5, 0}, {}}, {{0, -0.5, 0}, {}}});
+        break;
+      case 3:
+        if (world.jointCount() > 0) world.destroy(world.joints()[random() % world.jointCount()]);
+        break;
+      case 4:
+        world.create(bodies[at], {.geometry = Sphere{0.2f}, .pose = {{0.4, 0, 0}, {}}});
+        break;
+    }
+    world.step(kDt);
+  }
+  for (const BodyId id : world.bodies()) EXPECT_TRUE(std::isfinite(world.pose(id).position.y));
+  return world.hash();
+}
+
+TEST(Step, ChurnInTheMiddleOfARunReplays) { EXPECT_EQ(churnedHash(1), churnedHash(1)); }
+
+}  // namespace
+}  // namespace avbd
