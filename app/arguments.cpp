@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/failure.h"
+#include "app/near_names.h"
 
 namespace avbd::cli {
 namespace {
@@ -65,10 +66,13 @@ CLI::App* addVerify(CLI::App& app, VerifyArguments& a, std::string& solver) {
   return verify;
 }
 
-// CLI11's options take any number of values where a vector stands behind them, also after other options.
-std::string oneMessage(const CLI::ParseError& e) {
-  std::string text = e.what();
-  return text.empty() ? e.get_name() : text;
+// CLI11 says only that some command is missing.
+void refuseUnknownCommand(const CLI::App& app, const std::vector<std::string>& args) {
+  if (args.empty() || args[0].starts_with('-')) return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), args[0]) != names.end()) return;
+  throw BadInput("no command \"" + args[0] + "\"" + nearText(args[0], names) + "; `avbd --help` lists them");
 }
 
 }  // namespace
@@ -85,6 +89,7 @@ Arguments parseArguments(std::vector<std::string> args) {
   CLI::App* benchApp = addBench(app, bench, solver, peer);
   CLI::App* verifyApp = addVerify(app, verify, solver);
   app.add_subcommand("scenes", "List the built-in scenes");
+  refuseUnknownCommand(app, args);
   try {
     std::reverse(args.begin(), args.end());
     app.parse(args);
@@ -93,7 +98,7 @@ Arguments parseArguments(std::vector<std::string> args) {
   } catch (const CLI::CallForVersion& e) {
     return PrintText{std::string(e.what()) + "\n"};
   } catch (const CLI::ParseError& e) {
-    throw BadInput(oneMessage(e) + " (avbd --help says more)");
+    throw BadInput(std::string(e.what()) + " (avbd --help says more)");
   }
   if (runApp->parsed()) {
     setSolver(run.settings, solver);

@@ -8,17 +8,17 @@
 namespace avbd::cli {
 namespace {
 
-double quantile(std::vector<float> values, double q) {
+double quantile(std::vector<double> values, double q) {
   if (values.empty()) return 0;
   const size_t k = std::min(values.size() - 1, static_cast<size_t>(q * static_cast<double>(values.size())));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
-  return static_cast<double>(values[k]);
+  return values[k];
 }
 
 }  // namespace
 
 void Clockwork::add(double seconds, const StepReport& report) {
-  milliseconds_.push_back(static_cast<float>(seconds * 1e3));
+  milliseconds_.push_back(seconds * 1e3);
   seconds_ += seconds;
   for (size_t i = 0; i < kStageCount; ++i) stages_[i] += report.seconds[i];
 }

@@ -41,7 +41,7 @@ class Clockwork {
   void put(RunFigures& figures) const;
 
  private:
-  std::vector<float> milliseconds_;
+  std::vector<double> milliseconds_;
   double seconds_ = 0;
   std::array<double, kStageCount> stages_{};
 };

@@ -30,10 +30,12 @@ size_t editDistance(std::string_view a, std::string_view b) {
 std::vector<std::string> nearNames(std::string_view name, const std::vector<std::string>& names) {
   std::vector<std::pair<size_t, std::string>> ranked;
   if (name.empty() || name.size() > kLongest) return {};
+  // Two swapped letters count as two changes.
+  const size_t allowed = name.size() < 4 ? 1 : std::max<size_t>(2, name.size() / 3);
   for (const std::string& candidate : names) {
     const bool contained = candidate.find(name) != std::string::npos || name.find(candidate) != std::string_view::npos;
     const size_t distance = contained && candidate.size() > 2 ? 1 : editDistance(name, candidate);
-    if (distance <= std::max<size_t>(1, name.size() / 3)) ranked.emplace_back(distance, candidate);
+    if (distance <= allowed) ranked.emplace_back(distance, candidate);
   }
   std::sort(ranked.begin(), ranked.end());
   ranked.resize(std::min(ranked.size(), kMost));

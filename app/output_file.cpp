@@ -40,10 +40,13 @@ OutputFile::~OutputFile() {
   fs::remove(partial_, ignored);
 }
 
-void OutputFile::commit() {
+void OutputFile::finish() {
   errno = 0;
   stream_.close();
   if (!stream_) refuse(errno != 0 ? std::strerror(errno) : "could not be written in full");
+}
+
+void OutputFile::commit() {
   if (partial_.empty()) return;
   std::error_code failed;
   fs::rename(partial_, target_, failed);

@@ -20,7 +20,9 @@ class OutputFile {
   std::ostream& stream() { return stream_; }
   /// Where the file is or will be, with links followed.
   const std::filesystem::path& target() const { return target_; }
-  /// Throws BadInput if anything could not be written.
+  /// Writes what is left and closes. Throws BadInput if anything could not be written.
+  void finish();
+  /// After finish(): the file appears under its name.
   void commit();
 
  private:

@@ -9,7 +9,6 @@
 #include "app/figures.h"
 #include "app/json_text.h"
 #include "app/load.h"
-#include "app/number_text.h"
 #include "app/output_file.h"
 #include "app/poses_csv.h"
 #include "app/progress.h"
@@ -63,8 +62,11 @@ class Outputs {
       recorder_->recording().report = report;
       writePage(pageFile_->stream(), recorder_->recording());
     }
-    if (csvFile_) csvFile_->commit();
-    if (pageFile_) pageFile_->commit();
+    // Both or none.
+    for (const auto& file : {&csvFile_, &pageFile_})
+      if (*file) (*file)->finish();
+    for (const auto& file : {&csvFile_, &pageFile_})
+      if (*file) (*file)->commit();
   }
 
  private:
@@ -84,12 +86,6 @@ class Outputs {
   std::unique_ptr<Recorder> recorder_;
 };
 
-std::string bodyName(const Model& model, const NonFiniteError& e) {
-  for (const NamedBody& body : model.bodies)
-    if (body.id.index == e.bodyIndex()) return body.name;
-  return std::to_string(e.bodyIndex());
-}
-
 double timedStep(Model& model, int64_t step, double dt) {
   using Clock = std::chrono::steady_clock;
   try {
@@ -97,8 +93,7 @@ double timedStep(Model& model, int64_t step, double dt) {
     model.world.step(static_cast<float>(dt));
     return std::chrono::duration<double>(Clock::now() - before).count();
   } catch (const NonFiniteError& e) {
-    throw NonFiniteRun("step " + std::to_string(step) + " (time " + digits(static_cast<double>(step) * dt, 6) +
-                       " s): body \"" + bodyName(model, e) + "\" left the finite numbers in stage " + e.stage());
+    throw nonFiniteRun(model, e, step, static_cast<double>(step) * dt);
   }
 }
 

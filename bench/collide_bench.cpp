@@ -1,10 +1,10 @@
 // Time of collide() per pair, for each kind of pair in the states that piles are made of.
-#include "collide/collide.h"
-
 #include <benchmark/benchmark.h>
 
 #include <random>
 #include <vector>
+
+#include "collide/collide.h"
 
 namespace avbd {
 namespace {

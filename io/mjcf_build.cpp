@@ -1,15 +1,15 @@
 // From an MJCF description to a Model.
 #include "io/mjcf_build.h"
 
-#include "io/mjcf_mass.h"
-#include "io/notes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <map>
 #include <set>
+
+#include "io/mjcf_mass.h"
+#include "io/notes.h"
 
 namespace avbd {
 
@@ -48,18 +48,20 @@ class Builder {
   Link linkOf(size_t root) const { return clusters_.linkOf[root]; }
   bool isDynamic(size_t root) const { return linkOf(root) == Link::Free || linkOf(root) == Link::Ball; }
   /// Pose of a body in the frame of the body that it is part of.
-  Posed inRoot(size_t body) const { return body == rootOf(body) ? Posed{} : inverse(start_[rootOf(body)]) * start_[body]; }
+  Posed inRoot(size_t body) const {
+    return body == rootOf(body) ? Posed{} : inverse(start_[rootOf(body)]) * start_[body];
+  }
   std::string nameOf(size_t body);
 
   const Description& in_;
   Clusters clusters_;
-  std::vector<Posed> start_;     // world poses at the start
-  std::vector<Posed> rest_;      // world poses as in the file
-  std::vector<Motion> motion_;   // at the start
-  std::vector<BodyDef> defs_;    // of roots
+  std::vector<Posed> start_;                     // world poses at the start
+  std::vector<Posed> rest_;                      // world poses as in the file
+  std::vector<Motion> motion_;                   // at the start
+  std::vector<BodyDef> defs_;                    // of roots
   std::vector<std::vector<const Geom*>> geoms_;  // of defs_' shapes
-  std::vector<BodyId> ids_;      // of roots
-  std::set<std::string> names_;  // used so far
+  std::vector<BodyId> ids_;                      // of roots
+  std::set<std::string> names_;                  // used so far
   Notes notes_;
   std::map<std::pair<int, size_t>, PairGroup> pairGroups_;  // by body and geom
   Model model_;
@@ -171,11 +173,20 @@ void Builder::addShapes(size_t index) {
     Posed pose = inRoot(index) * geom.pose;
     ShapeDef shape;
     switch (geom.kind) {
-      case GeomKind::Sphere: shape.geometry = Sphere{f(geom.size.x)}; break;
-      case GeomKind::Capsule: shape.geometry = Capsule{f(geom.size.x), f(geom.size.y)}; break;
-      case GeomKind::Box: shape.geometry = Box{f(geom.size.x), f(geom.size.y), f(geom.size.z)}; break;
-      case GeomKind::Plane: shape.geometry = HalfSpace{}; break;
-      default: continue;
+      case GeomKind::Sphere:
+        shape.geometry = Sphere{f(geom.size.x)};
+        break;
+      case GeomKind::Capsule:
+        shape.geometry = Capsule{f(geom.size.x), f(geom.size.y)};
+        break;
+      case GeomKind::Box:
+        shape.geometry = Box{f(geom.size.x), f(geom.size.y), f(geom.size.z)};
+        break;
+      case GeomKind::Plane:
+        shape.geometry = HalfSpace{};
+        break;
+      default:
+        continue;
     }
     if (geom.kind == GeomKind::Capsule || geom.kind == GeomKind::Plane) pose.rotation = pose.rotation * yToZ;
     pose.rotation = normalized(pose.rotation);
@@ -204,7 +215,8 @@ void Builder::failMass(size_t root) const {
     if (rootOf(i) == root) known = known && in_.bodies[i].massKnown && !in_.bodies[i].partsLeftOut;
   }
   if (known) throw FileError(where + ": a body that moves needs mass and inertia > 0 (geoms with mass, or inertial)");
-  throw FileError(where + ": the mass of a body that moves is not known, as parts of it are left out: give it an inertial");
+  throw FileError(where +
+                  ": the mass of a body that moves is not known, as parts of it are left out: give it an inertial");
 }
 
 void Builder::gather() {
@@ -230,8 +242,8 @@ void Builder::gather() {
     if (!(mass.mass > 0) || !(*std::min_element(p.begin(), p.end()) > 0)) failMass(i);
     const auto f = [&](double v) { return narrow(v, where); };
     const Sym3d& m = mass.inertia;
-    defs_[i].massProperties = MassProperties{f(mass.mass), narrow(mass.center, where),
-                                             {f(m.xx), f(m.yy), f(m.zz), f(m.xy), f(m.xz), f(m.yz)}};
+    defs_[i].massProperties = MassProperties{
+        f(mass.mass), narrow(mass.center, where), {f(m.xx), f(m.yy), f(m.zz), f(m.xy), f(m.xz), f(m.yz)}};
     const Vec3d arm = rotate(start_[i].rotation, mass.center);
     defs_[i].linearVelocity = narrow(motion_[i].linear + cross(motion_[i].angular, arm), where);
     defs_[i].angularVelocity = narrow(motion_[i].angular, where);
@@ -301,10 +313,9 @@ void Builder::addEquality(const Equality& equality) {
 }
 
 void Builder::addWeld(const Equality& equality, BodyId a, BodyId b, const Posed& frameA, const Posed& frameB) {
-  const Posed relative = equality.hasRelative
-                             ? equality.relative
-                             : inverse(rest_[static_cast<size_t>(equality.bodyA)]) *
-                                   rest_[static_cast<size_t>(equality.bodyB)];
+  const Posed relative = equality.hasRelative ? equality.relative
+                                              : inverse(rest_[static_cast<size_t>(equality.bodyA)]) *
+                                                    rest_[static_cast<size_t>(equality.bodyB)];
   const Posed anchorB{equality.anchor, {}};
   FixedJoint joint{.bodyA = a, .bodyB = b};
   joint.frameA = toPose(frameA * relative * anchorB);

@@ -1,11 +1,11 @@
 // From an MJCF description to a Model: which bodies become one, then bodies, shapes, joints and filters.
 #pragma once
 
+#include <map>
+
 #include "io/mjcf.h"
 #include "io/mjcf_parse.h"
 #include "io/notes.h"
-
-#include <map>
 
 namespace avbd::mjcf {
 
@@ -26,8 +26,8 @@ std::string keyName(const Description& description, size_t key);
 
 /// What contact pairs make of a geom that the filters alone would not let collide.
 struct PairGroup {
-  int group = 0;          ///< positive
-  double friction = -1;   ///< replaces the geom's own; -1 keeps it
+  int group = 0;         ///< positive
+  double friction = -1;  ///< replaces the geom's own; -1 keeps it
 };
 /// By body and geom. Pairs that cannot be expressed are noted.
 std::map<std::pair<int, size_t>, PairGroup> pairGroups(const Description& description, Notes& notes);

@@ -1,13 +1,11 @@
 // Which MJCF bodies become one rigid body, and which keyframe applies.
-#include "io/mjcf_build.h"
-
 #include <set>
+
+#include "io/mjcf_build.h"
 
 namespace avbd::mjcf {
 
-bool isBallOnly(const Body& body) {
-  return body.joints.size() == 1 && body.joints[0].kind == JointKind::Ball;
-}
+bool isBallOnly(const Body& body) { return body.joints.size() == 1 && body.joints[0].kind == JointKind::Ball; }
 
 Clusters clustersOf(const Description& description) {
   using Link = Clusters::Link;

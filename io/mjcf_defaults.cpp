@@ -1,9 +1,9 @@
 // MJCF default classes.
 #include "io/mjcf_defaults.h"
 
-#include "io/mjcf_schema.h"
-
 #include <algorithm>
+
+#include "io/mjcf_schema.h"
 
 namespace avbd::mjcf {
 
@@ -84,7 +84,8 @@ void Defaults::readSettings(Elem elem, Class& cls, Notes& notes) {
     for (const pugi::xml_attribute a : child.node.attributes()) {
       const Attr attr{a.name(), a.value(), child};
       if (!findRule(name, attr.name)) continue;
-      if (attr.name == "name" || attr.name == "class") source_.fail(child, attr.name, attr.value, "not allowed in a default");
+      if (attr.name == "name" || attr.name == "class")
+        source_.fail(child, attr.name, attr.value, "not allowed in a default");
       const auto it = std::find_if(known.begin(), known.end(), [&](const Attr& k) { return k.name == attr.name; });
       if (it != known.end()) {
         *it = attr;

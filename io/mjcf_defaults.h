@@ -1,10 +1,10 @@
 // MJCF default classes: what an element's attributes are where the element itself does not say.
 #pragma once
 
+#include <map>
+
 #include "io/mjcf_values.h"
 #include "io/notes.h"
-
-#include <map>
 
 namespace avbd::mjcf {
 
@@ -27,7 +27,7 @@ class Defaults {
   Attributes resolve(Elem elem, std::string_view element, int cls) const;
 
  private:
-  static constexpr size_t kMostClasses = 10000;  // each holds a copy of what it inherits
+  static constexpr size_t kMostClasses = 10000;                            // each holds a copy of what it inherits
   using Settings = std::map<std::string, std::vector<Attr>, std::less<>>;  // by element
   struct Class {
     std::string name;

@@ -10,19 +10,26 @@ using std::numbers::pi;
 double volume(GeomKind kind, Vec3d size) {
   const double r = size.x, h = size.y;
   switch (kind) {
-    case GeomKind::Sphere: return 4 * pi / 3 * r * r * r;
-    case GeomKind::Capsule: return pi * r * r * (2 * h + 4 * r / 3);
-    case GeomKind::Cylinder: return pi * r * r * 2 * h;
-    case GeomKind::Ellipsoid: return 4 * pi / 3 * size.x * size.y * size.z;
-    case GeomKind::Box: return 8 * size.x * size.y * size.z;
-    default: return 0;
+    case GeomKind::Sphere:
+      return 4 * pi / 3 * r * r * r;
+    case GeomKind::Capsule:
+      return pi * r * r * (2 * h + 4 * r / 3);
+    case GeomKind::Cylinder:
+      return pi * r * r * 2 * h;
+    case GeomKind::Ellipsoid:
+      return 4 * pi / 3 * size.x * size.y * size.z;
+    case GeomKind::Box:
+      return 8 * size.x * size.y * size.z;
+    default:
+      return 0;
   }
 }
 
 Sym3d unitInertia(GeomKind kind, Vec3d s) {
   const double r = s.x, h = s.y;
   switch (kind) {
-    case GeomKind::Sphere: return Sym3d{1, 1, 1} * (0.4 * r * r);
+    case GeomKind::Sphere:
+      return Sym3d{1, 1, 1} * (0.4 * r * r);
     case GeomKind::Cylinder: {
       const double across = r * r / 4 + h * h / 3;
       return {across, across, r * r / 2};
@@ -38,7 +45,8 @@ Sym3d unitInertia(GeomKind kind, Vec3d s) {
       const double c = kind == GeomKind::Box ? 1.0 / 3 : 0.2;
       return Sym3d{s.y * s.y + s.z * s.z, s.x * s.x + s.z * s.z, s.x * s.x + s.y * s.y} * c;
     }
-    default: return {};
+    default:
+      return {};
   }
 }
 

@@ -1,9 +1,9 @@
 // Masses of MJCF geoms and bodies by MuJoCo's rules.
 #pragma once
 
-#include "io/mjcf_parse.h"
-
 #include <span>
+
+#include "io/mjcf_parse.h"
 
 namespace avbd::mjcf {
 

@@ -47,15 +47,14 @@ Sym3d rotated(const Sym3d& m, Quatd q) {
   const auto row = [&](double a, double b, double c) { return ax * a + ay * b + az * c; };
   // columns of R M, then (R M) R^T
   const Vec3d cx = row(m.xx, m.xy, m.xz), cy = row(m.xy, m.yy, m.yz), cz = row(m.xz, m.yz, m.zz);
-  const auto at = [&](double Vec3d::*i, double Vec3d::*j) {
-    return cx.*i * ax.*j + cy.*i * ay.*j + cz.*i * az.*j;
-  };
+  const auto at = [&](double Vec3d::*i, double Vec3d::*j) { return cx.*i * ax.*j + cy.*i * ay.*j + cz.*i * az.*j; };
   return {at(&Vec3d::x, &Vec3d::x), at(&Vec3d::y, &Vec3d::y), at(&Vec3d::z, &Vec3d::z),
           at(&Vec3d::x, &Vec3d::y), at(&Vec3d::x, &Vec3d::z), at(&Vec3d::y, &Vec3d::z)};
 }
 
 Sym3d pointInertia(double mass, Vec3d d) {
-  return Sym3d{d.y * d.y + d.z * d.z, d.x * d.x + d.z * d.z, d.x * d.x + d.y * d.y, -d.x * d.y, -d.x * d.z, -d.y * d.z} *
+  return Sym3d{
+             d.y * d.y + d.z * d.z, d.x * d.x + d.z * d.z, d.x * d.x + d.y * d.y, -d.x * d.y, -d.x * d.z, -d.y * d.z} *
          mass;
 }
 

@@ -1,7 +1,7 @@
 // MJCF contact pairs as collision groups.
-#include "io/mjcf_build.h"
-
 #include <algorithm>
+
+#include "io/mjcf_build.h"
 
 namespace avbd::mjcf {
 

@@ -1,13 +1,13 @@
 // An MJCF file as plain data: defaults resolved, angles in radians, poses in the parent's frame, masses computed.
 #pragma once
 
-#include "io/file_error.h"
-#include "io/mjcf_math.h"
-
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/file_error.h"
+#include "io/mjcf_math.h"
 
 namespace avbd::mjcf {
 
@@ -24,8 +24,8 @@ struct Mass {
 struct Geom {
   std::string name, where;  ///< where: `tower.xml:12: geom "a"`, for messages
   GeomKind kind = GeomKind::Sphere;
-  Vec3d size;   ///< radius; radius, half length; or half extents; the rest zero
-  Posed pose;   ///< in the body's frame; long shapes lie along z
+  Vec3d size;  ///< radius; radius, half length; or half extents; the rest zero
+  Posed pose;  ///< in the body's frame; long shapes lie along z
   double mass = 0;
   bool massKnown = true;  ///< false where the shape is one whose volume this reader cannot compute
   double friction = 1;    ///< sliding
@@ -46,10 +46,10 @@ struct Body {
   Posed pose;      ///< in the parent's frame
   std::vector<Joint> joints;
   std::vector<Geom> geoms;
-  Mass mass;               ///< in the body's frame
-  bool massKnown = true;   ///< false where a geom's mass is not
+  Mass mass;                  ///< in the body's frame
+  bool massKnown = true;      ///< false where a geom's mass is not
   bool partsLeftOut = false;  ///< composites and the like, which may have had mass
-  bool moves = false;      ///< it or a body above it has a joint
+  bool moves = false;         ///< it or a body above it has a joint
   bool mocap = false;
   double gravcomp = 0;
   size_t qposAt = 0, qvelAt = 0;  ///< where its joints' coordinates begin in a keyframe
@@ -78,9 +78,9 @@ struct Equality {
   std::string where;
   bool weld = false;  ///< else connect
   int bodyA = 0, bodyB = 0;
-  Vec3d anchor;            ///< connect: in A's frame; weld: in B's
+  Vec3d anchor;  ///< connect: in A's frame; weld: in B's
   bool hasRelative = false;
-  Posed relative;          ///< weld: of B in A's frame, if given; else as the file's poses are
+  Posed relative;  ///< weld: of B in A's frame, if given; else as the file's poses are
 };
 
 struct Key {
@@ -93,10 +93,10 @@ struct Description {
   std::string fileName;
   double dt = 0.002;
   Vec3d gravity{0, 0, -9.81};
-  bool contactsOff = false;      ///< only predefined pairs collide, if those
+  bool contactsOff = false;  ///< only predefined pairs collide, if those
   bool pairsOff = false;
-  bool filterParent = true;      ///< a moving parent and its child do not collide
-  std::vector<Body> bodies;      ///< parents first, in the order of the file; [0] is the world
+  bool filterParent = true;  ///< a moving parent and its child do not collide
+  std::vector<Body> bodies;  ///< parents first, in the order of the file; [0] is the world
   std::vector<Exclude> excludes;
   std::vector<Pair> pairs;
   std::vector<Equality> equalities;

@@ -1,5 +1,4 @@
 // What an MJCF file means, checked by hand-computed figures (mujoco_oracle.cpp compares with MuJoCo itself).
-#include "io/mjcf_mass.h"
 #include "io/mjcf_parse.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include "io/mjcf_mass.h"
 
 namespace avbd::mjcf {
 namespace {
@@ -51,7 +52,8 @@ TEST(MjcfParse, NumbersInEveryNotation) {
 
 TEST(MjcfParse, MassesOfSolids) {
   const Description d = parse(
-      "<worldbody><body><freejoint/><geom size='.5'/></body><body><freejoint/><geom type='box' size='1 2 3' mass='6'/></body>"
+      "<worldbody><body><freejoint/><geom size='.5'/></body><body><freejoint/><geom type='box' size='1 2 3' "
+      "mass='6'/></body>"
       "<body><freejoint/><geom type='capsule' size='1 2' density='3'/></body></worldbody>");
   EXPECT_NEAR(d.bodies[1].mass.mass, 1000 * 4 / 3.0 * pi * 0.125, 1e-9);
   EXPECT_NEAR(d.bodies[1].mass.inertia.xx, 0.4 * d.bodies[1].mass.mass * 0.25, 1e-9);
@@ -63,7 +65,8 @@ TEST(MjcfParse, MassesOfSolids) {
 TEST(MjcfParse, AClassReachesThroughChildclassUntilAnotherIsNamed) {
   const Description d = parse(
       "<default><geom size='1'/><default class='a'><geom size='2'/></default></default>"
-      "<worldbody><geom/><body childclass='a'><geom/><geom class='main'/><body><geom/><geom size='3'/></body></body></worldbody>");
+      "<worldbody><geom/><body childclass='a'><geom/><geom class='main'/><body><geom/><geom "
+      "size='3'/></body></body></worldbody>");
   EXPECT_EQ(d.bodies[0].geoms[0].size.x, 1);
   EXPECT_EQ(d.bodies[1].geoms[0].size.x, 2);
   EXPECT_EQ(d.bodies[1].geoms[1].size.x, 1);
@@ -89,7 +92,8 @@ TEST(MjcfParse, AFrameMovesWhatStandsInIt) {
 }
 
 TEST(MjcfParse, AnglesOfReferencesFollowTheCompiler) {
-  const char* body = "<worldbody><body><joint ref='90'/><joint type='slide' ref='90'/><geom size='1'/></body></worldbody>";
+  const char* body =
+      "<worldbody><body><joint ref='90'/><joint type='slide' ref='90'/><geom size='1'/></body></worldbody>";
   EXPECT_NEAR(parse(body).bodies[1].joints[0].ref, pi / 2, 1e-12);
   EXPECT_EQ(parse(body).bodies[1].joints[1].ref, 90);
   EXPECT_EQ(parse("<compiler angle='radian'/>" + std::string(body)).bodies[1].joints[0].ref, 90);
@@ -99,7 +103,8 @@ TEST(MjcfParse, NotesSayWhatIsNotUsedOnceForAll) {
   const Description d = parse(
       "<option iterations='50' wind='0 0 0' viscosity='1'/><sensor/><actuator/><tendon/><nonsense/>"
       "<worldbody><geom size='1' colour='red' solref='1 1' margin='0'/><geom size='1' colour='red' margin='.1'/>"
-      "<body><composite/><freejoint/><wheel/><geom type='cylinder' size='1 1'/><geom size='1' condim='4'/></body></worldbody>");
+      "<body><composite/><freejoint/><wheel/><geom type='cylinder' size='1 1'/><geom size='1' "
+      "condim='4'/></body></worldbody>");
   EXPECT_TRUE(hasNote(d, "t.xml:1: option: attribute iterations is not used"));
   EXPECT_TRUE(hasNote(d, "attribute viscosity is not used"));
   EXPECT_FALSE(hasNote(d, "wind"));
@@ -118,15 +123,16 @@ TEST(MjcfParse, NotesSayWhatIsNotUsedOnceForAll) {
 
 TEST(MjcfParse, DrawingIsSilent) {
   const Description d = parse(
-      "<size njmax='1'/><visual><map znear='1'/></visual><statistic extent='2'/><custom><numeric name='a' data='1'/></custom>"
+      "<size njmax='1'/><visual><map znear='1'/></visual><statistic extent='2'/><custom><numeric name='a' "
+      "data='1'/></custom>"
       "<asset><texture name='t' builtin='flat'/><material name='m' texture='t'/></asset>"
-      "<worldbody><light/><camera/><site/><geom size='1' rgba='1 0 0 1' material='m' group='1' user='1 2 3'/></worldbody>");
+      "<worldbody><light/><camera/><site/><geom size='1' rgba='1 0 0 1' material='m' group='1' user='1 2 "
+      "3'/></worldbody>");
   EXPECT_TRUE(d.notes.empty()) << d.notes[0];
 }
 
 TEST(MjcfParse, KeyframesAreNotUsedWherePartsAreLeftOut) {
-  const Description d = parse(
-      "<worldbody><composite/></worldbody><keyframe><key qpos='1 2 3'/></keyframe>");
+  const Description d = parse("<worldbody><composite/></worldbody><keyframe><key qpos='1 2 3'/></keyframe>");
   ASSERT_EQ(d.keys.size(), 1u);
   EXPECT_TRUE(d.keys[0].qpos.empty());
   EXPECT_TRUE(hasNote(d, "keyframes are not used"));
@@ -140,7 +146,7 @@ TEST(MjcfParse, InactiveAndDisabledEqualitiesAreLeftOut) {
   EXPECT_EQ(parse("<default><equality active='false'/></default>" + bodies + weld).equalities.size(), 0u);
 }
 
-TEST(MjcfParse, AMillionLevelsDeep) {
+TEST(MjcfParse, DeeperThanTheCStack) {
   const int depth = 200000;
   std::string xml = "<worldbody>";
   for (int i = 0; i < depth; ++i) xml += "<body pos='0 0 1'>";
@@ -180,14 +186,15 @@ TEST(MjcfParse, ATenMegabyteLine) {
   EXPECT_LE(d.notes.size(), 1001u);
   std::string attributes = "<worldbody ";
   while (attributes.size() < (10u << 20)) attributes += "a" + std::to_string(attributes.size()) + "='' ";
-  EXPECT_LE(parse(attributes + "/>").notes.size(), 1001u);
+  EXPECT_THROW(parse(attributes + "/>"), FileError);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }
 
 TEST(MjcfParse, EntitiesDoNotGrow) {
-  EXPECT_THROW(parseText("<!DOCTYPE m [<!ENTITY a 'aaaa'><!ENTITY b '&a;&a;&a;'>]><mujoco><option timestep='&b;'/></mujoco>",
-                         "t.xml"),
-               FileError);
+  EXPECT_THROW(
+      parseText("<!DOCTYPE m [<!ENTITY a 'aaaa'><!ENTITY b '&a;&a;&a;'>]><mujoco><option timestep='&b;'/></mujoco>",
+                "t.xml"),
+      FileError);
 }
 
 // Whatever bytes come: a description or a FileError.
@@ -198,7 +205,8 @@ TEST(MjcfParse, BrokenBytes) {
       "<worldbody><geom type='plane' size='1 1 1'/><body name='a' pos='0 0 1' euler='1 2 3'><freejoint/><geom/>"
       "<body name='b' childclass='c'><joint pos='1 2 3'/><geom type='capsule' size='.1' fromto='0 0 0 1 1 1'/>"
       "<inertial pos='0 0 0' mass='1' fullinertia='1 1 1 0 0 0'/></body></body></worldbody>"
-      "<contact><exclude body1='a' body2='b'/></contact><equality><connect body1='a' body2='b' anchor='0 0 0'/></equality>"
+      "<contact><exclude body1='a' body2='b'/></contact><equality><connect body1='a' body2='b' anchor='0 0 "
+      "0'/></equality>"
       "<keyframe><key qpos='1 2 3 1 0 0 0 1 0 0 0'/></keyframe></mujoco>";
   ASSERT_EQ(parseText(good, "t.xml").bodies.size(), 3u);
   std::mt19937 random(7);
@@ -209,10 +217,18 @@ TEST(MjcfParse, BrokenBytes) {
     for (uint32_t k = random() % 3; k != ~0u; --k) {
       const size_t at = random() % bad.size();
       switch (random() % 4) {
-        case 0: bad[at] = alphabet[random() % alphabet.size()]; break;
-        case 1: bad.erase(at, random() % 20); break;
-        case 2: bad.insert(at, 1, alphabet[random() % alphabet.size()]); break;
-        default: bad.insert(at, bad.substr(random() % bad.size(), random() % 60)); break;
+        case 0:
+          bad[at] = alphabet[random() % alphabet.size()];
+          break;
+        case 1:
+          bad.erase(at, random() % 20);
+          break;
+        case 2:
+          bad.insert(at, 1, alphabet[random() % alphabet.size()]);
+          break;
+        default:
+          bad.insert(at, bad.substr(random() % bad.size(), random() % 60));
+          break;
       }
     }
     try {

@@ -1,9 +1,9 @@
 // MJCF sections: root, compiler, option, assets' names.
 #include "io/mjcf_parser.h"
 
-#include "io/mjcf_schema.h"
-
 #include <cmath>
+
+#include "io/mjcf_schema.h"
 
 namespace avbd::mjcf {
 
@@ -24,7 +24,8 @@ Attributes Parser::own(Elem elem, std::string_view element) {
 
 Description Parser::run() {
   readRoot();
-  // MuJoCo's order, whatever the order in the file: settings, then classes, then what uses them, then what refers to it.
+  // MuJoCo's order, whatever the order in the file: settings, then classes, then what uses them, then what refers to
+  // it.
   forSection("compiler", [&](Elem e) { readCompiler(e); });
   forSection("option", [&](Elem e) { readOption(e); });
   forSection("default", [&](Elem e) { defaults_.read(e, notes_); });
@@ -67,7 +68,8 @@ void Parser::readRoot() {
   out_.fileName = source_.fileName(root);
   if (root.name() != "mujoco") {
     const bool urdf = root.name() == "robot";
-    source_.fail(root, "not an MJCF file: its root element must be <mujoco>" + std::string(urdf ? " (this is URDF)" : ""));
+    source_.fail(root,
+                 "not an MJCF file: its root element must be <mujoco>" + std::string(urdf ? " (this is URDF)" : ""));
   }
   out_.name = own(root, "mujoco").text("model");
   noteChildren(root, "mujoco");

@@ -1,11 +1,11 @@
 // The reader behind mjcf_parse.h: walks the elements and fills a Description.
 #pragma once
 
-#include "io/mjcf_defaults.h"
-#include "io/mjcf_parse.h"
-
 #include <functional>
 #include <set>
+
+#include "io/mjcf_defaults.h"
+#include "io/mjcf_parse.h"
 
 namespace avbd::mjcf {
 

@@ -1,10 +1,9 @@
 // MJCF bodies: the tree, poses, joints, inertial elements.
-#include "io/mjcf_parser.h"
-
-#include "io/mjcf_schema.h"
-
 #include <cmath>
 #include <numbers>
+
+#include "io/mjcf_parser.h"
+#include "io/mjcf_schema.h"
 
 namespace avbd::mjcf {
 
@@ -151,8 +150,8 @@ void Parser::readJoint(Elem elem, const OpenElem& in, bool isFree) {
   joint.where = source_.where(elem);
   joint.place = source_.place(elem);
   joint.name = nameOnce(a, jointNames_);
-  joint.kind = isFree ? JointKind::Free
-                      : static_cast<JointKind>(a.keyword("type", {"free", "ball", "slide", "hinge"}, 3));
+  joint.kind =
+      isFree ? JointKind::Free : static_cast<JointKind>(a.keyword("type", {"free", "ball", "slide", "hinge"}, 3));
   if (!isFree) {
     joint.pos = in.frame.position + rotate(in.frame.rotation, vector(a, "pos", {}));
     joint.axis = vector(a, "axis", {0, 0, 1});
@@ -167,7 +166,8 @@ void Parser::readJoint(Elem elem, const OpenElem& in, bool isFree) {
       if (before.kind == JointKind::Ball) source_.fail(elem, "no joint that turns may follow a ball joint");
     }
   }
-  const bool freeAmong = joint.kind == JointKind::Free || (!body.joints.empty() && body.joints[0].kind == JointKind::Free);
+  const bool freeAmong =
+      joint.kind == JointKind::Free || (!body.joints.empty() && body.joints[0].kind == JointKind::Free);
   if (freeAmong && !body.joints.empty()) source_.fail(elem, "a free joint must be the only joint of its body");
   if (freeAmong && body.parent != 0) source_.fail(elem, "a free joint is only allowed in a child of worldbody");
   if (joint.kind == JointKind::Free) joint.pos = {};

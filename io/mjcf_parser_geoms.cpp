@@ -1,9 +1,8 @@
 // MJCF geoms: shape, surface, mass.
-#include "io/mjcf_parser.h"
+#include <cmath>
 
 #include "io/mjcf_mass.h"
-
-#include <cmath>
+#include "io/mjcf_parser.h"
 
 namespace avbd::mjcf {
 
@@ -15,12 +14,16 @@ const std::vector<std::string_view> kGeomTypes = {"plane",    "hfield", "sphere"
 // How many sizes a shape needs; with fromto its length is known.
 size_t sizesNeeded(GeomKind kind, bool fromTo) {
   switch (kind) {
-    case GeomKind::Sphere: return 1;
+    case GeomKind::Sphere:
+      return 1;
     case GeomKind::Capsule:
-    case GeomKind::Cylinder: return fromTo ? 1 : 2;
+    case GeomKind::Cylinder:
+      return fromTo ? 1 : 2;
     case GeomKind::Ellipsoid:
-    case GeomKind::Box: return fromTo ? 1 : 3;
-    default: return 0;
+    case GeomKind::Box:
+      return fromTo ? 1 : 3;
+    default:
+      return 0;
   }
 }
 
@@ -112,7 +115,8 @@ void Parser::readSurface(const Attributes& a, Geom& geom) {
     a.fail("condim", "must be 1, 3, 4 or 6");
   }
   if (geom.condim > 3) {
-    notes_.add(geom.where, "condim " + std::to_string(geom.condim) + ": no torsional or rolling friction, only sliding");
+    notes_.add(geom.where,
+               "condim " + std::to_string(geom.condim) + ": no torsional or rolling friction, only sliding");
   }
   geom.priority = a.integer("priority", 0);
   geom.contype = a.integer("contype", 1);
@@ -136,7 +140,9 @@ void Parser::readGeomMass(const Attributes& a, Geom& geom) {
   if (canCollide) return;
   const std::string type(kGeomTypes[static_cast<size_t>(geom.kind)]);
   notes_.add(geom.where, "type " + type + " is left out" +
-                             (isSolid ? ", and its mass" : geom.mass > 0 ? "; its mass counts" : ""));
+                             (isSolid         ? ", and its mass"
+                              : geom.mass > 0 ? "; its mass counts"
+                                              : ""));
 }
 
 }  // namespace avbd::mjcf

@@ -1,9 +1,8 @@
 // MJCF contact, equality and keyframe sections.
-#include "io/mjcf_parser.h"
-
-#include "io/mjcf_schema.h"
-
 #include <cmath>
+
+#include "io/mjcf_parser.h"
+#include "io/mjcf_schema.h"
 
 namespace avbd::mjcf {
 

@@ -1,9 +1,9 @@
 // Masses of MJCF bodies: from geoms or inertial, then the compiler's bounds.
-#include "io/mjcf_mass.h"
-#include "io/mjcf_parser.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "io/mjcf_mass.h"
+#include "io/mjcf_parser.h"
 
 namespace avbd::mjcf {
 
@@ -26,8 +26,9 @@ void Parser::finishMass(size_t index) {
     known = known && geom.massKnown;
     any = true;
   }
-  const bool fromGeoms = compiler_.inertiaFromGeom == FromGeoms::Yes ? any || !inertial.given
-                         : compiler_.inertiaFromGeom == FromGeoms::Auto && !inertial.given;
+  const bool fromGeoms = compiler_.inertiaFromGeom == FromGeoms::Yes
+                             ? any || !inertial.given
+                             : compiler_.inertiaFromGeom == FromGeoms::Auto && !inertial.given;
   if (fromGeoms) {
     body.mass = sum(parts);
     body.massKnown = known;
@@ -50,8 +51,9 @@ void Parser::limitMass(size_t index) {
   if (v[0] + v[1] < v[2] * (1 - 1e-6)) {
     if (!compiler_.balanceInertia) {
       const Elem elem = inertials_[index].given ? inertials_[index].elem : bodyElems_[index];
-      source_.fail(elem, "inertia of the body: principal values A, B, C must satisfy A + B >= C "
-                         "(or set balanceinertia in compiler)");
+      source_.fail(elem,
+                   "inertia of the body: principal values A, B, C must satisfy A + B >= C "
+                   "(or set balanceinertia in compiler)");
     }
     p.values.fill((v[0] + v[1] + v[2]) / 3);
   }

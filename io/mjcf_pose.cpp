@@ -1,7 +1,7 @@
 // Forward kinematics of an MJCF description.
-#include "io/mjcf_parse.h"
-
 #include <cmath>
+
+#include "io/mjcf_parse.h"
 
 namespace avbd::mjcf {
 

@@ -1,11 +1,11 @@
 // Broken MJCF: each is refused with file, line, element, attribute, value and what is allowed.
-#include "io/mjcf_parse.h"
-
 #include <gtest/gtest.h>
 
 #include <initializer_list>
 #include <string>
 #include <vector>
+
+#include "io/mjcf_parse.h"
 
 namespace avbd::mjcf {
 namespace {
@@ -249,8 +249,7 @@ TEST(Refused, NamesThePlaceInTheDefaultClass) {
 }
 
 TEST(Refused, LongValuesAreCutInMessages) {
-  const std::string message =
-      messageOf("<mujoco><option timestep='" + std::string(100000, 'x') + "'/></mujoco>");
+  const std::string message = messageOf("<mujoco><option timestep='" + std::string(100000, 'x') + "'/></mujoco>");
   EXPECT_LT(message.size(), 400u);
   EXPECT_NE(message.find("..."), std::string::npos);
 }

@@ -299,8 +299,7 @@ bool hasPose(std::string_view element, std::string_view attribute) {
 const AttributeRule* findRule(std::string_view element, std::string_view attribute) {
   if (element == "connect" || element == "weld") element = "equality";
   const auto matches = [&](const AttributeRule& rule) {
-    return rule.name == attribute &&
-           (rule.element == element || (rule.element == "*" && hasPose(element, attribute)));
+    return rule.name == attribute && (rule.element == element || (rule.element == "*" && hasPose(element, attribute)));
   };
   const auto it = std::find_if(std::begin(kRules), std::end(kRules), matches);
   return it == std::end(kRules) ? nullptr : &*it;

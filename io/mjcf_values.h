@@ -1,12 +1,12 @@
 // Attributes of an MJCF element as numbers, keywords and flags, each checked with its place in the file.
 #pragma once
 
-#include "io/xml_source.h"
-
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/xml_source.h"
 
 namespace avbd::mjcf {
 
@@ -40,10 +40,10 @@ class Attributes {
   std::vector<double> numbers(std::string_view name, size_t least, size_t most) const;
   double number(std::string_view name, double otherwise) const;
   int integer(std::string_view name, int otherwise) const;
-  std::string text(std::string_view name) const;            ///< empty where not given
-  std::string requiredText(std::string_view name) const;    ///< must be given and not empty
-  bool flag(std::string_view name, bool otherwise) const;   ///< true or false
-  bool enabled(std::string_view name) const;                ///< enable or disable; enabled where not given
+  std::string text(std::string_view name) const;           ///< empty where not given
+  std::string requiredText(std::string_view name) const;   ///< must be given and not empty
+  bool flag(std::string_view name, bool otherwise) const;  ///< true or false
+  bool enabled(std::string_view name) const;               ///< enable or disable; enabled where not given
   /// Index into the words, or `otherwise` where not given.
   int keyword(std::string_view name, const std::vector<std::string_view>& words, int otherwise) const;
 

@@ -16,12 +16,12 @@ struct NamedBody {
 struct Model {
   std::string name;
   World world;
-  double dt = 1.0 / 60;             ///< [s] the file's or scene's own step
-  double duration = 10;             ///< [s] to run where nobody says otherwise
-  Vec3 up{0, 1, 0};                 ///< unit; z for MJCF
-  std::vector<NamedBody> bodies;    ///< all bodies, static ones too, in the order of the file
+  double dt = 1.0 / 60;                ///< [s] the file's or scene's own step
+  double duration = 10;                ///< [s] to run where nobody says otherwise
+  Vec3 up{0, 1, 0};                    ///< unit; z for MJCF
+  std::vector<NamedBody> bodies;       ///< all bodies, static ones too, in the order of the file
   std::vector<std::string> keyframes;  ///< names of the file's keyframes; "key_1" where it gives none
-  std::vector<std::string> notes;   ///< what the reader did not understand or changed, one line each
+  std::vector<std::string> notes;      ///< what the reader did not understand or changed, one line each
 };
 
 }  // namespace avbd

@@ -1,7 +1,4 @@
 // The reader against MuJoCo itself: bodies, masses, poses and geoms of the same files.
-#include "io/mjcf.h"
-#include "io/mjcf_build.h"
-
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
@@ -11,6 +8,9 @@
 #include <memory>
 #include <random>
 #include <set>
+
+#include "io/mjcf.h"
+#include "io/mjcf_build.h"
 
 namespace avbd {
 namespace {
@@ -84,7 +84,8 @@ void compareGeoms(const Body& body, const mjModel* m, int index) {
     expectSameTurn(geom.pose.rotation, m->geom_quat + 4 * g, 1e-12, geom.where);
     if (geom.kind == GeomKind::Plane) continue;
     // MuJoCo keeps numbers that the shape has no use for.
-    const bool one = geom.kind == GeomKind::Sphere, two = geom.kind == GeomKind::Capsule || geom.kind == GeomKind::Cylinder;
+    const bool one = geom.kind == GeomKind::Sphere,
+               two = geom.kind == GeomKind::Capsule || geom.kind == GeomKind::Cylinder;
     const mjtNum* size = m->geom_size + 3 * g;
     const mjtNum used[3] = {size[0], one ? 0 : size[1], one || two ? 0 : size[2]};
     expectNear(geom.size, used, 1e-12, geom.where);
@@ -193,16 +194,14 @@ TEST_P(Samples, GiveTheSameBodies) {
 // Those without composite elements.
 INSTANTIATE_TEST_SUITE_P(Mujoco, Samples,
                          testing::Values("humanoid/humanoid.xml", "slider_crank/slider_crank.xml",
-                                         "tendon_arm/arm26.xml",
-                                         "humanoid100/humanoid100.xml", "humanoid/22_humanoids.xml"));
+                                         "tendon_arm/arm26.xml", "humanoid100/humanoid100.xml",
+                                         "humanoid/22_humanoids.xml"));
 
 TEST(Oracle, Showcase) { compare(std::string(AVBD_SCENES) + "/showcase.xml"); }
 
 class Snippets : public testing::TestWithParam<const char*> {};
 
-TEST_P(Snippets, GiveTheSameBodies) {
-  compare(write(std::string("<mujoco>") + GetParam() + "</mujoco>"));
-}
+TEST_P(Snippets, GiveTheSameBodies) { compare(write(std::string("<mujoco>") + GetParam() + "</mujoco>")); }
 
 INSTANTIATE_TEST_SUITE_P(
     Mjcf, Snippets,
@@ -278,8 +277,8 @@ TEST(Oracle, KeyframeVelocities) {
   const Model model = readMjcf(file);
   for (const NamedBody& body : model.bodies) {
     mjtNum v[6];
-    mj_objectVelocity(mj.model.get(), mj.data.get(), mjOBJ_BODY, mj_name2id(mj.model.get(), mjOBJ_BODY, body.name.c_str()),
-                      v, 0);
+    mj_objectVelocity(mj.model.get(), mj.data.get(), mjOBJ_BODY,
+                      mj_name2id(mj.model.get(), mjOBJ_BODY, body.name.c_str()), v, 0);
     const Velocity ours = model.world.velocity(body.id);
     expectNear(toDouble(ours.angular), v, 1e-5, body.name);
     expectNear(toDouble(ours.linear), v + 3, 1e-5, body.name);
@@ -345,18 +344,26 @@ std::string randomModel(uint32_t seed) {
   };
   const auto turn = [&]() -> std::string {
     switch (pick(6)) {
-      case 0: return " quat='" + list(4) + "'";
-      case 1: return " euler='" + list(3) + "'";
-      case 2: return " axisangle='" + list(4) + "'";
-      case 3: return " xyaxes='" + list(6) + "'";
-      case 4: return " zaxis='" + list(3) + "'";
-      default: return "";
+      case 0:
+        return " quat='" + list(4) + "'";
+      case 1:
+        return " euler='" + list(3) + "'";
+      case 2:
+        return " axisangle='" + list(4) + "'";
+      case 3:
+        return " xyaxes='" + list(6) + "'";
+      case 4:
+        return " zaxis='" + list(3) + "'";
+      default:
+        return "";
     }
   };
   const auto geom = [&]() -> std::string {
     const char* kinds[] = {"sphere", "capsule", "ellipsoid", "cylinder", "box"};
     const std::string kind = kinds[pick(5)];
-    const std::string weight = pick(3) == 0 ? " mass='" + positive() + "'" : pick(2) ? " density='" + positive() + "'" : "";
+    const std::string weight = pick(3) == 0 ? " mass='" + positive() + "'"
+                               : pick(2)    ? " density='" + positive() + "'"
+                                            : "";
     if (kind != "sphere" && pick(3) == 0) {
       return "<geom type='" + kind + "' size='" + positive() + "' fromto='" + list(6) + "'" + weight + "/>";
     }

@@ -84,9 +84,9 @@ void XmlSource::addFile(const fs::path& path, const Elem* includedBy) {
   if (known != paths_.end()) {
     const bool itself = includedBy && known - paths_.begin() == includedBy->file;
     failFile(name, includedBy, *this,
-             itself                      ? "the file includes itself"
+             itself                    ? "the file includes itself"
              : known == paths_.begin() ? "the main file cannot be included"
-                                         : "the file is included more than once");
+                                       : "the file is included more than once");
   }
   std::string text(size, '\0');
   std::ifstream in(path, std::ios::binary);
@@ -115,8 +115,8 @@ void XmlSource::addText(std::string text, std::string name) {
   };
   const size_t bad = findBadUtf8(file->text);
   if (bad != std::string::npos) refuse(bad, "not text in UTF-8");
-  const pugi::xml_parse_result result = file->document.load_buffer_inplace(
-      file->text.data(), file->text.size(), pugi::parse_default, pugi::encoding_utf8);
+  const pugi::xml_parse_result result = file->document.load_buffer_inplace(file->text.data(), file->text.size(),
+                                                                           pugi::parse_default, pugi::encoding_utf8);
   if (!result) refuse(static_cast<size_t>(std::max<ptrdiff_t>(result.offset, 0)), result.description());
   const pugi::xml_node first = file->document.document_element();
   for (pugi::xml_node n = first.next_sibling(); n; n = n.next_sibling()) {
@@ -130,7 +130,9 @@ void XmlSource::addText(std::string text, std::string name) {
 void XmlSource::checkAttributesOnce(Elem elem) const {
   std::unordered_set<std::string_view> seen;
   if (elem.node.first_attribute() == elem.node.last_attribute()) return;
+  constexpr size_t kMost = 1000;  // attributes are looked up one by one
   for (const pugi::xml_attribute a : elem.node.attributes()) {
+    if (seen.size() == kMost) fail(elem, "more than 1000 attributes");
     if (!seen.insert(a.name()).second) fail(elem, a.name(), a.value(), "the attribute is given twice");
   }
 }

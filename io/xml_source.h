@@ -1,8 +1,6 @@
 // XML text of a scene with everything it includes: elements that know their file and line.
 #pragma once
 
-#include "io/file_error.h"
-
 #include <filesystem>
 #include <memory>
 #include <pugixml.hpp>
@@ -10,6 +8,8 @@
 #include <string_view>
 #include <unordered_map>
 #include <vector>
+
+#include "io/file_error.h"
 
 namespace avbd::mjcf {
 
@@ -51,7 +51,7 @@ class XmlSource {
  private:
   struct File {
     std::string name;
-    std::string text;                 // parsed in place: names and values point into it
+    std::string text;  // parsed in place: names and values point into it
     std::vector<size_t> lineStarts;
     pugi::xml_document document;
   };

@@ -1,10 +1,10 @@
 // Files that include files.
-#include "io/mjcf_parse.h"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <fstream>
+
+#include "io/mjcf_parse.h"
 
 namespace avbd::mjcf {
 namespace {
@@ -43,9 +43,10 @@ TEST_F(Includes, StandForTheChildrenOfTheirRoot) {
   write("sub/body.xml", "<mujocoinclude>\n<geom size='1' name='in'/>\n<body name='b'/></mujocoinclude>");
   write("option.xml", "<mujoco><option timestep='.5'/><include file='sub/world.xml'/></mujoco>");
   write("sub/world.xml", "<mujoco><worldbody><geom size='2' name='w'/></worldbody></mujoco>");
-  const Description d = parseFile(write("main.xml",
-      "<mujoco><include file='option.xml'/><worldbody><geom name='first' size='1'/><include file='sub/body.xml'/>"
-      "<geom name='last' size='1'/></worldbody></mujoco>"));
+  const Description d = parseFile(
+      write("main.xml",
+            "<mujoco><include file='option.xml'/><worldbody><geom name='first' size='1'/><include file='sub/body.xml'/>"
+            "<geom name='last' size='1'/></worldbody></mujoco>"));
   EXPECT_EQ(d.dt, 0.5);
   ASSERT_EQ(d.bodies.size(), 2u);
   ASSERT_EQ(d.bodies[0].geoms.size(), 4u);
@@ -63,7 +64,8 @@ TEST_F(Includes, MessagesNameTheIncludedFile) {
 
 TEST_F(Includes, BrokenXmlIsNamedWithItsLine) {
   write("part.xml", "<mujoco>\n<a></mujoco>");
-  expectRefused(write("main.xml", "<mujoco><include file='part.xml'/></mujoco>"), (folder_ / "part.xml").string() + ":2: ");
+  expectRefused(write("main.xml", "<mujoco><include file='part.xml'/></mujoco>"),
+                (folder_ / "part.xml").string() + ":2: ");
 }
 
 TEST_F(Includes, Refused) {

@@ -110,10 +110,10 @@ std::vector<Scene> pileScenes() {
                                                holds("finite", e.finite)};
                   }});
   list.push_back(pit("pit_grid", "c", "pit with 2000 boxes as a perfect grid of columns", pitGrid, 60));
-  // Twenty boxes rest on the lowest ones; the columns have to stay columns.
+  // Twenty boxes rest on the lowest ones. The columns stay apart while none leaves by half of the 0.1 m between them.
   list.back().check = [](const Evidence& e) {
     std::vector<Figure> figures = checkPit(e, 0.012, 0.005);
-    figures.push_back(atMost("horizontal", e.displacement.horizontal, 0.020, "m"));
+    figures.push_back(atMost("horizontal", e.displacement.horizontal, 0.050, "m"));
     return figures;
   };
   list.push_back(pit("bricks", "c2", "pit with 2000 boxes in shifted layers", bricks, 60));

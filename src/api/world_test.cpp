@@ -14,7 +14,7 @@ const float kNan = std::nanf(""), kInf = std::numeric_limits<float>::infinity();
 // Everything that can be read, as one text: equal texts mean that nothing has changed.
 std::string everything(const World& world) {
   std::string text = std::to_string(world.hash()) + " " + std::to_string(world.shapeCount());
-  const auto add = [&](auto... values) { ((text += " " + std::to_string(values)), ...); };
+  const auto add = [&](auto... values) { ((text.append(" ").append(std::to_string(values))), ...); };
   const WorldDef& def = world.definition();
   add(def.gravity.x, def.gravity.y, def.gravity.z, def.iterations, def.substeps, world.time());
   for (const BodyId id : world.bodies()) {

@@ -3,15 +3,15 @@
 //
 // A corner of the cut polygon is named by what meets in it: a corner of the box, or an edge or side plane and a side
 // plane. So names last as long as the same things meet, also where another face through that edge becomes incident.
-#include "collide/box_pair.h"
-
 #include <utility>
+
+#include "collide/box_pair.h"
 
 namespace avbd {
 namespace {
 
-constexpr float kTilt = 1.0f / 256;   // slope below which no corner counts as deeper than another
-constexpr float kBetter = 1.02f;      // what a corner must be better by than one before it to be chosen
+constexpr float kTilt = 1.0f / 512;  // slope below which no corner counts as deeper than another
+constexpr float kBetter = 1.02f;     // what a corner must be better by than one before it to be chosen
 constexpr int kMaxCorners = 8;
 
 /// u, v across the reference face, w above it. Each in its own array: copies of whole corners just written wait for the
@@ -40,10 +40,10 @@ struct Plane {
   float beyond(const Polygon& p, int k) const { return sign * (Across == 0 ? p.u[k] : p.v[k]) - extent; }
 };
 
-/// Adds the point where the edge from a corner inside, di beyond the plane, to one outside, d0 beyond, meets the plane.
+/// Adds the point of the edge between two corners that lies on the plane, at the part t of the way.
 template <int Across>
-void addMeeting(const Polygon& p, int inside, float di, int outside, float d0, const Plane<Across>& plane, Polygon& to) {
-  const float t = clampTo(di / (di - d0), 0, 1), at = plane.sign * plane.extent;
+void addMeeting(const Polygon& p, int inside, int outside, float t, const Plane<Across>& plane, Polygon& to) {
+  const float at = plane.sign * plane.extent;
   const int k = to.count++;
   to.u[k] = Across == 0 ? at : p.u[inside] + t * (p.u[outside] - p.u[inside]);
   to.v[k] = Across == 1 ? at : p.v[inside] + t * (p.v[outside] - p.v[inside]);
@@ -67,9 +67,9 @@ void cut(const Polygon& from, const Plane<Across>& plane, float tolerance, Polyg
     if (keepA == keepB || to.count >= kMaxCorners) continue;
     const int k = to.count;
     if (keepA) {
-      addMeeting(from, a, da, b, db, plane, to);
+      addMeeting(from, a, b, clampTo(da / (da - db), 0, 1), plane, to);
     } else {
-      addMeeting(from, b, db, a, da, plane, to);
+      addMeeting(from, b, a, clampTo(db / (db - da), 0, 1), plane, to);
     }
     to.in[k] = keepA ? from.out[a] : plane.name;
     to.out[k] = keepA ? plane.name : from.out[a];
@@ -161,7 +161,8 @@ float twiceArea(const Polygon& p, int a, int b, int c) {
   return (p.u[b] - p.u[a]) * (p.v[c] - p.v[a]) - (p.v[b] - p.v[a]) * (p.u[c] - p.u[a]);
 }
 
-/// The first corner with the largest score, up to a small part: equals must not change places with every rounding error.
+/// The first corner with the largest score, up to a small part: equals must not change places with every rounding
+/// error.
 template <class Score>
 int bestCorner(const Polygon& p, const Score& score) {
   int best = 0;

@@ -1,11 +1,11 @@
 // Box against box, apart: the nearest points, where no face or crossing of edges holds them.
 //
-// Every such pair of points has one on an edge of b (or of a, by its corners): the nearest points of b's twelve edges to
-// box a and of a's eight corners to box b are all that there can be.
+// Every such pair of points has one on an edge of b (or of a, by its corners): the nearest points of b's twelve edges
+// to box a and of a's eight corners to box b are all that there can be.
+#include <limits>
+
 #include "collide/box_pair.h"
 #include "collide/segment_box.h"
-
-#include <limits>
 
 namespace avbd {
 namespace {

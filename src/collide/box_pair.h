@@ -43,8 +43,8 @@ struct FaceView {
 /// The other box's face that looks at the reference face, cut by its side planes, at most four points of it.
 void clipFace(const FaceView& view, FacePoints& out);
 
-/// The nearest points of two boxes that are apart, in a's frame, and their distance. The normal is set only where that is
-/// no less than the tolerance: below, it would be rounding.
+/// The nearest points of two boxes that are apart, in a's frame, and their distance. The normal is set only where that
+/// is no less than the tolerance: below, it would be rounding.
 float touchNearest(const BoxPair& pair, Manifold& out);
 
 }  // namespace avbd

@@ -5,18 +5,18 @@
 // first box's before the second's unless the others are better by more than a tolerance: a box at rest must not change
 // between descriptions of the same contact. Where the boxes are apart and the best axis does not lead to a point of
 // both, their nearest points do: a bound of the distance, taken for a gap, would stop bodies short of each other.
-#include "collide/box_pair.h"
-
 #include <limits>
+
+#include "collide/box_pair.h"
 
 namespace avbd {
 namespace {
 
-constexpr float kTolerance = 1e-3f;   // of the thinnest half extent
-constexpr float kRelative = 0.02f;    // of the separation: what an edge must be better by
+constexpr float kTolerance = 1e-3f;       // of the thinnest half extent
+constexpr float kRelative = 0.02f;        // of the separation: what an edge must be better by
 constexpr float kSameDirection = 0.995f;  // cosine between an edge axis and a face's normal that may stand for it
-constexpr float kRounding = 4e-7f;    // of the lengths that an edge's separation is the difference of
-constexpr float kShortAxis = 1e-6f;   // squared sine below which edges count as parallel
+constexpr float kRounding = 4e-7f;        // of the lengths that an edge's separation is the difference of
+constexpr float kShortAxis = 1e-6f;       // squared sine below which edges count as parallel
 
 struct FaceAxis {
   int axis = -1;
@@ -74,8 +74,8 @@ template <int I, int J>
 inline bool edgeAxis(const BoxPair& p, float& floor, EdgeAxis& best) {
   constexpr int i1 = (I + 1) % 3, i2 = (I + 2) % 3, j1 = (J + 1) % 3, j2 = (J + 2) % 3;
   const float along = p.da[i2] * p.r[i1][J] - p.da[i1] * p.r[i2][J];
-  const float reach = p.ha[i1] * p.absR[i2][J] + p.ha[i2] * p.absR[i1][J] + p.hb[j1] * p.absR[I][j2] +
-                      p.hb[j2] * p.absR[I][j1];
+  const float reach =
+      p.ha[i1] * p.absR[i2][J] + p.ha[i2] * p.absR[i1][J] + p.hb[j1] * p.absR[I][j2] + p.hb[j2] * p.absR[I][j1];
   // Short axes magnify rounding errors: never claim a separation that may be one.
   const float far = magnitude(along), gap = far - reach - kRounding * (far + reach);
   if (gap <= floor && gap <= 0) return true;  // dividing by a length below 1 only lowers it
@@ -132,6 +132,7 @@ bool touchEdges(const BoxPair& p, const EdgeAxis& axis, bool swapped, Manifold& 
   const uint32_t a = edgeName(i, pa), b = edgeName(j, localB);
   out.normal = normal;
   out.count = 0;
+  if (separation > p.margin) return within;
   addPoint(out, vec(pa) + vec(gap) * 0.5f, separation, swapped ? 0x10000u | b << 4 | a : 0x10000u | a << 4 | b);
   return within;
 }

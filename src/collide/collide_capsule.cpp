@@ -8,9 +8,9 @@
 namespace avbd {
 namespace {
 
-constexpr float kParallel = 0.03f;      // sine of the largest angle between a capsule and what it lies along
-constexpr float kSameSide = 2e-5f;      // 1 - cosine between the nearest direction and a face's normal to be on it
-constexpr float kFaceFirst = 1e-3f;     // of the smallest size: what an edge axis must be better by than a face's
+constexpr float kParallel = 0.03f;   // sine of the largest angle between a capsule and what it lies along
+constexpr float kSameSide = 2e-5f;   // 1 - cosine between the nearest direction and a face's normal to be on it
+constexpr float kFaceFirst = 1e-3f;  // of the smallest size: what an edge axis must be better by than a face's
 
 /// A segment center + s axis, s in -reach .. reach; axis is unit.
 struct Core {
@@ -162,8 +162,8 @@ bool cutToFace(const CapsuleInBox& c, int face, Cut& cut) {
   return cut.t[0] <= cut.t[1];
 }
 
-/// Points where the core lies above (or in) a face, unless all are farther than `nearest`, the true separation: then the
-/// core's lowest part is not above the face. Positions in the box's frame; the normal out of the box.
+/// Points where the core lies above (or in) a face, unless all are farther than `nearest`, the true separation: then
+/// the core's lowest part is not above the face. Positions in the box's frame; the normal out of the box.
 void addOnFace(const CapsuleInBox& c, int face, float sign, float nearest, float margin, Manifold& out) {
   Cut cut;
   if (!cutToFace(c, face, cut)) return;

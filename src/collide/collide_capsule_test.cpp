@@ -1,7 +1,7 @@
 // Capsule against capsule, box and half-space, in cases with known answers.
-#include "collide/collide.h"
-
 #include <gtest/gtest.h>
+
+#include "collide/collide.h"
 
 namespace avbd {
 namespace {
@@ -42,7 +42,8 @@ TEST(CollideCapsule, parallelCapsulesTouchAtBothEndsOfTheirOverlap) {
 }
 
 TEST(CollideCapsule, slightlyTurnedCapsulesKeepBothPoints) {
-  const Manifold m = touch(Capsule{0.5f, 1}, {{}, kAlongX}, Capsule{0.5f, 1}, {{0, 0.99f, 0}, slightly(0.01f) * kAlongX});
+  const Manifold m =
+      touch(Capsule{0.5f, 1}, {{}, kAlongX}, Capsule{0.5f, 1}, {{0, 0.99f, 0}, slightly(0.01f) * kAlongX});
   expectEnds(m, -1, 1);
   EXPECT_NEAR(std::fabs(m.points[0].separation - m.points[1].separation), 0.02f, 1e-3f);
 }
@@ -110,7 +111,8 @@ TEST(CollideCapsule, liesAlongAnEdge) {
 
 TEST(CollideCapsule, crossesAnEdgeInOnePoint) {
   const Quat tilted = slightly(-0.7f) * kAlongX;  // leans on the edge at x = 1
-  const Manifold m = touch(Capsule{0.25f, 2}, {Vec3{1, 1, 0} + rotate(slightly(-0.7f), Vec3{0, 0.2f, 0}), tilted}, Box{1, 1, 1}, {});
+  const Manifold m =
+      touch(Capsule{0.25f, 2}, {Vec3{1, 1, 0} + rotate(slightly(-0.7f), Vec3{0, 0.2f, 0}), tilted}, Box{1, 1, 1}, {});
   ASSERT_EQ(m.count, 1);
   EXPECT_NEAR(m.points[0].separation, -0.05f, 1e-6f);
   EXPECT_LT(length(m.normal + rotate(slightly(-0.7f), Vec3{0, 1, 0})), 1e-6f);

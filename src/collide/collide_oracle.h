@@ -1,13 +1,13 @@
 // For the tests: distances and depths found in double by trying everything, sharing no code with the engine.
 #pragma once
 
-#include "collide/collide.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
+
+#include "collide/collide.h"
 
 namespace avbd::oracle {
 
@@ -18,9 +18,7 @@ inline Vec3d unitRotate(Quat q, Vec3d v) {
           (2 * (x * z - w * y) * v.x + 2 * (y * z + w * x) * v.y + (w * w - x * x - y * y + z * z) * v.z) / n};
 }
 
-inline Vec3d crossOf(Vec3d a, Vec3d b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+inline Vec3d crossOf(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
 /// A convex core (corners, edges, faces' normals) and a radius about it.
 struct Solid {
@@ -44,13 +42,15 @@ inline Solid solidOf(const ShapeGeom& g, const NearPose& pose) {
   }
   if (g.type == ShapeType::Box) {
     for (int k = 0; k < 8; ++k) {
-      const Vec3d c{k & 1 ? g.extent.x : -g.extent.x, k & 2 ? g.extent.y : -g.extent.y, k & 4 ? g.extent.z : -g.extent.z};
+      const Vec3d c{k & 1 ? g.extent.x : -g.extent.x, k & 2 ? g.extent.y : -g.extent.y,
+                    k & 4 ? g.extent.z : -g.extent.z};
       s.corners.push_back(s.center + unitRotate(pose.q, c));
       for (int bit = 1; bit < 8; bit *= 2) {
         if (!(k & bit)) s.edges.push_back({k, k | bit});
       }
     }
-    s.axes = {unitRotate(pose.q, Vec3d{1, 0, 0}), unitRotate(pose.q, Vec3d{0, 1, 0}), unitRotate(pose.q, Vec3d{0, 0, 1})};
+    s.axes = {unitRotate(pose.q, Vec3d{1, 0, 0}), unitRotate(pose.q, Vec3d{0, 1, 0}),
+              unitRotate(pose.q, Vec3d{0, 0, 1})};
   }
   return s;
 }
@@ -127,8 +127,9 @@ inline double coreDistance(const Solid& a, const Solid& b) {
   }
   for (const auto& i : a.edges) {
     for (const auto& j : b.edges)
-      best = std::min(best, segmentDistance(a.corners[static_cast<size_t>(i.first)], a.corners[static_cast<size_t>(i.second)],
-                                            b.corners[static_cast<size_t>(j.first)], b.corners[static_cast<size_t>(j.second)]));
+      best = std::min(
+          best, segmentDistance(a.corners[static_cast<size_t>(i.first)], a.corners[static_cast<size_t>(i.second)],
+                                b.corners[static_cast<size_t>(j.first)], b.corners[static_cast<size_t>(j.second)]));
   }
   return best;
 }
@@ -167,10 +168,14 @@ class Random {
   ShapeGeom shape(ShapeType type) {
     const bool thin = below(4) == 0;
     switch (type) {
-      case ShapeType::Sphere: return toShapeGeom(Sphere{within(0.1f, 1)});
-      case ShapeType::Capsule: return toShapeGeom(Capsule{within(0.1f, 1), below(5) ? within(0.1f, 1) : 0});
-      case ShapeType::Box: return toShapeGeom(Box{within(0.1f, 1), thin ? 0.02f : within(0.1f, 1), within(0.1f, 1)});
-      case ShapeType::HalfSpace: break;
+      case ShapeType::Sphere:
+        return toShapeGeom(Sphere{within(0.1f, 1)});
+      case ShapeType::Capsule:
+        return toShapeGeom(Capsule{within(0.1f, 1), below(5) ? within(0.1f, 1) : 0});
+      case ShapeType::Box:
+        return toShapeGeom(Box{within(0.1f, 1), thin ? 0.02f : within(0.1f, 1), within(0.1f, 1)});
+      case ShapeType::HalfSpace:
+        break;
     }
     return toShapeGeom(HalfSpace{});
   }

@@ -1,7 +1,7 @@
 // Sphere against sphere, capsule, box and half-space, in cases with known answers.
-#include "collide/collide.h"
-
 #include <gtest/gtest.h>
+
+#include "collide/collide.h"
 
 namespace avbd {
 namespace {
@@ -31,8 +31,8 @@ TEST(CollideSphere, sphere) {
 
 TEST(CollideSphere, capsule) {
   const Capsule c{0.5f, 1};
-  expectPoint(touch(Sphere{0.5f}, {0.9f, 0.5f, 0}, c, {}), {-1, 0, 0}, {0.45f, 0.5f, 0}, -0.1f);     // its side
-  expectPoint(touch(Sphere{0.5f}, {0, 2.05f, 0}, c, {}), {0, -1, 0}, {0, 1.525f, 0}, 0.05f);         // its end
+  expectPoint(touch(Sphere{0.5f}, {0.9f, 0.5f, 0}, c, {}), {-1, 0, 0}, {0.45f, 0.5f, 0}, -0.1f);  // its side
+  expectPoint(touch(Sphere{0.5f}, {0, 2.05f, 0}, c, {}), {0, -1, 0}, {0, 1.525f, 0}, 0.05f);      // its end
   expectPoint(touch(Sphere{0.5f}, {0.3f, 1.4f, 0}, c, {}), {-0.6f, -0.8f, 0}, {0.15f, 1.2f, 0}, -0.5f);
   EXPECT_NEAR(length(touch(Sphere{0.5f}, {0, 0.2f, 0}, c, {}).normal), 1, 1e-6f);
   EXPECT_FLOAT_EQ(touch(Sphere{0.5f}, {0, 0.2f, 0}, c, {}).points[0].separation, -1);

@@ -9,8 +9,8 @@ struct Aabb {
   Vec3 lower, upper;
 };
 
-/// Bounds of a shape at a world pose, grown by margin >= 0. A HalfSpace is bounded only where its plane is axis-aligned;
-/// otherwise its bounds are the whole space (+-kFarAway).
+/// Bounds of a shape at a world pose, grown by margin >= 0. A HalfSpace is bounded only where its plane is
+/// axis-aligned; otherwise its bounds are the whole space (+-kFarAway).
 Aabb bounds(const ShapeGeom& geom, const Pose& pose, float margin);
 
 inline constexpr float kFarAway = 1e18f;

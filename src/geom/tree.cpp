@@ -156,8 +156,8 @@ void DynamicTree::rotate(int32_t i) {
   float bestGain = mustLower ? -std::numeric_limits<float>::infinity() : 0;
   int bestSide = -1, bestGrand = -1;
   for (int side = 0; side < 2; ++side) {
-    const Node& stay = at(node.child[side]);       // goes down, beside one grandchild
-    const Node& open = at(node.child[1 - side]);   // gives up the other one
+    const Node& stay = at(node.child[side]);      // goes down, beside one grandchild
+    const Node& open = at(node.child[1 - side]);  // gives up the other one
     if (open.height == 0) continue;
     const float before = area(open.box);
     for (int grand = 0; grand < 2; ++grand) {

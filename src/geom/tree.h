@@ -1,9 +1,9 @@
 // Dynamic tree of bounds (binary tree of fat boxes) for the broad phase and queries.
 #pragma once
 
-#include "geom/aabb.h"
-
 #include <vector>
+
+#include "geom/aabb.h"
 
 namespace avbd {
 

@@ -38,7 +38,8 @@ void expectSound(const DynamicTree& tree) {
       ++leaves;
       continue;
     }
-    const auto &a = tree.nodes()[static_cast<size_t>(node.child[0])], &b = tree.nodes()[static_cast<size_t>(node.child[1])];
+    const auto &a = tree.nodes()[static_cast<size_t>(node.child[0])],
+               &b = tree.nodes()[static_cast<size_t>(node.child[1])];
     ASSERT_EQ(node.height, 1 + std::max(a.height, b.height));
     ASSERT_TRUE(contains(node.box, a.box) && contains(node.box, b.box));
   }
@@ -114,7 +115,8 @@ TEST(Tree, sameCallsGiveTheSameTree) {
   EXPECT_EQ(found[0], found[1]);
   EXPECT_GT(found[0].size(), 10u);
   ASSERT_EQ(trees[0].nodes().size(), trees[1].nodes().size());
-  for (size_t i = 0; i < trees[0].nodes().size(); ++i) EXPECT_EQ(trees[0].nodes()[i].parent, trees[1].nodes()[i].parent);
+  for (size_t i = 0; i < trees[0].nodes().size(); ++i)
+    EXPECT_EQ(trees[0].nodes()[i].parent, trees[1].nodes()[i].parent);
 }
 
 TEST(Tree, scalesExactlyByPowersOfTwo) {
@@ -144,10 +146,18 @@ TEST_P(TreeHeight, staysLow) {
     const float f = static_cast<float>(i);
     Aabb box{};
     switch (GetParam()) {
-      case Order::Line: box = cube({f * 1.1f, 0, 0}, 0.5f); break;
-      case Order::Random: box = cube({place(random), place(random), place(random)}, 0.5f); break;
-      case Order::Equal: box = cube({}, 1); break;
-      case Order::Nested: box = cube({}, 1 + f); break;
+      case Order::Line:
+        box = cube({f * 1.1f, 0, 0}, 0.5f);
+        break;
+      case Order::Random:
+        box = cube({place(random), place(random), place(random)}, 0.5f);
+        break;
+      case Order::Equal:
+        box = cube({}, 1);
+        break;
+      case Order::Nested:
+        box = cube({}, 1 + f);
+        break;
       case Order::Grid:
         box = cube({static_cast<float>(i % 16), static_cast<float>(i / 16 % 16), static_cast<float>(i / 256)}, 0.45f);
         break;
@@ -161,7 +171,8 @@ TEST_P(TreeHeight, staysLow) {
   EXPECT_EQ(find(tree, cube({}, 1e6f)).size(), count);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tree, TreeHeight, testing::Values(Order::Line, Order::Random, Order::Equal, Order::Nested, Order::Grid));
+INSTANTIATE_TEST_SUITE_P(Tree, TreeHeight,
+                         testing::Values(Order::Line, Order::Random, Order::Equal, Order::Nested, Order::Grid));
 
 TEST(Tree, visitStackGrows) {
   VisitStack stack;

@@ -5,12 +5,12 @@ set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
-common="-std=c++20 -ffp-contract=off -fno-fast-math -fno-math-errno -fno-trapping-math -Wall -Wextra -Wshadow -Wno-psabi"
-common="$common -fno-tree-vectorize"
+common="-std=c++20 -Wall -Wextra -Wshadow -Wno-psabi -fno-tree-vectorize"
+common="$common -ffp-contract=off -fno-fast-math -fno-math-errno -fno-trapping-math"
 failed=0
 for compiler in ${COMPILERS:-g++ clang++}; do
   command -v "$compiler" > "$out/which" || continue
-  for level in -O0 -O1 -O2 -O3; do
+  for level in ${LEVELS:--O0 -O1 -O2 -O3}; do
     for isa in "" "-mavx2 -mfma" "-mavx512f -mavx512vl -mavx512dq -mfma -mprefer-vector-width=512"; do
       for test in "$root"/src/lane/*_test.cpp; do
         # shellcheck disable=SC2086

@@ -124,7 +124,7 @@ void findContacts(WorldData& world, StepData& step) {
             speculativeMargin(world, a, b, step.h), pair.manifold);
     if (pair.manifold.count == 0) {
       pair.pointCount = 0;
-      pair.slides = false;
+      pair.slides = 0;
       continue;
     }
     combineMaterials(pair, shapeA.material, shapeB.material);

@@ -1,4 +1,6 @@
 // Publication: poses, velocities, multipliers and reactions go back to the world.
+#include <algorithm>
+
 #include "step/begin_rows.h"
 #include "step/free_motion.h"
 
@@ -13,6 +15,7 @@ void publishBodies(WorldData& world, const StepData& step) {
     BodyData& body = world.bodies[step.order[i]];
     body.position = step.end[i].position;
     body.rotation = step.end[i].rotation;
+    body.acceleration = (step.end[i].linearVelocity - body.linearVelocity) * (1 / step.h);
     body.linearVelocity = step.end[i].linearVelocity;
     body.angularVelocity = step.end[i].angularVelocity;
   }
@@ -34,14 +37,15 @@ void publishContacts(WorldData& world, const StepData& step) {
     if (step.contactPair[lane] == kNone) continue;
     PairData& pair = world.pairs[step.contactPair[lane]];
     const rows::Contact<float> c = step.contacts[lane / kTile].get(lane % kTile);
-    pair.slides = true;
+    bool slides = true;
     for (int i = 0; i < pair.pointCount; ++i) {
       PointMemory& point = pair.points[i];
       const rows::ContactPointRows<float>& p = c.point[i];
       point.lambda = {p.lambdaN, p.lambda1, p.lambda2};
       point.sticks = insideCone(p) ? 1 : 0;
-      if (point.sticks) pair.slides = false;
+      if (point.sticks) slides = false;
     }
+    pair.slides = slides ? static_cast<uint8_t>(std::min(pair.slides + 1, 255)) : uint8_t{0};
   }
 }
 

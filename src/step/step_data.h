@@ -60,6 +60,7 @@ struct StepData {
   };
   std::vector<KinematicRow> kinematicRows;  ///< rows count over all batches
 
+  std::vector<uint8_t> slidesOnly;    ///< by body slot: all its contacts have slid for some steps
   std::vector<Vec3> carried;          ///< by body slot: force of contacts and joints in the last step [N]
 
   // Body rows.

@@ -21,6 +21,15 @@ const Quat kQuarterZ{kHalf, 0, 0, kHalf};
 
 uint32_t make(WorldData& data, const BodyDef& def) { return addBody(data, def, checkedBody(def, 1)); }
 
+PairData pairOf(const WorldData& data, uint32_t shapeA, uint32_t shapeB) {
+  PairData pair;
+  pair.shapeA = shapeA;
+  pair.shapeB = shapeB;
+  pair.bodyA = data.shapes[shapeA].body;
+  pair.bodyB = data.shapes[shapeB].body;
+  return pair;
+}
+
 TEST(Bodies, FrameAndCentre) {
   WorldData data;
   const MassProperties mass{.mass = 2, .center = {1, 0, 0}};
@@ -74,8 +83,9 @@ TEST(Bodies, ShapesAreInTheTreeWithAMargin) {
 
 TEST(Bodies, MoveErasesPairsAndMarks) {
   WorldData data;
-  const uint32_t a = make(data, {.shape = Box{}}), b = make(data, {.shape = Box{}}), c = make(data, {.shape = Box{}});
-  data.pairs = {{.shapeA = 0, .shapeB = 1, .bodyA = a, .bodyB = b}, {.shapeA = 1, .shapeB = 2, .bodyA = b, .bodyB = c}};
+  const uint32_t a = make(data, {.shape = Box{}});
+  for (int i = 0; i < 2; ++i) make(data, {.shape = Box{}});
+  data.pairs = {pairOf(data, 0, 1), pairOf(data, 1, 2)};
   data.unpaired.clear();
   moveBody(data, a, {});
   ASSERT_EQ(data.pairs.size(), 1u);
@@ -93,7 +103,8 @@ TEST(Bodies, NewCentreKeepsEveryPointWhereItWasAndAsFast) {
   const uint32_t other = make(data, {.shape = Box{}});
   const BallJoint ball{data.bodyIds.id(slot), data.bodyIds.id(other), {{0, 1, 0}, {}}, {{0, -1, 0}, {}}};
   const uint32_t joint = addJoint(data, checkedJoint(data, ball));
-  data.pairs = {{.shapeA = 0, .shapeB = 1, .bodyA = slot, .bodyB = other, .pointCount = 1}};
+  data.pairs = {pairOf(data, 0, 1)};
+  data.pairs[0].pointCount = 1;
   data.pairs[0].points[0].anchorA = {0.5f, 0, 0};
   data.pairs[0].points[0].anchorB = {0, 0.5f, 0};
   const BodyData& body = data.bodies[slot];
@@ -233,7 +244,7 @@ class Churn {
     data_.shapeIds.forEach([&](uint32_t a) {
       data_.shapeIds.forEach([&](uint32_t b) {
         if (a >= b || random_() % 8 || !mayTouch(data_, a, b)) return;
-        const PairData pair{.shapeA = a, .shapeB = b, .bodyA = data_.shapes[a].body, .bodyB = data_.shapes[b].body};
+        const PairData pair = pairOf(data_, a, b);
         const auto at = std::lower_bound(data_.pairs.begin(), data_.pairs.end(), pair,
                                          [](const PairData& x, const PairData& y) { return x.key() < y.key(); });
         if (at == data_.pairs.end() || at->key() != pair.key()) data_.pairs.insert(at, pair);

@@ -42,8 +42,12 @@ class Pairs : public testing::Test {
     return slot;
   }
   void pairUp(uint32_t shapeA, uint32_t shapeB) {
-    data.pairs.push_back(
-        {.shapeA = shapeA, .shapeB = shapeB, .bodyA = data.shapes[shapeA].body, .bodyB = data.shapes[shapeB].body});
+    PairData pair;
+    pair.shapeA = shapeA;
+    pair.shapeB = shapeB;
+    pair.bodyA = data.shapes[shapeA].body;
+    pair.bodyB = data.shapes[shapeB].body;
+    data.pairs.push_back(pair);
   }
   std::vector<std::pair<uint32_t, uint32_t>> pairs() const {
     std::vector<std::pair<uint32_t, uint32_t>> all;

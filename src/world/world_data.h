@@ -19,6 +19,7 @@ struct BodyData {
   Vec3d position;  ///< of the centre of mass
   Quat rotation;   ///< body to world
   Vec3 linearVelocity, angularVelocity;
+  Vec3 acceleration;  ///< of the centre of mass in the last step
   Vec3 force, torque;           ///< given by the user for the next step
   Vec3 center;                  ///< centre of mass in the body's frame
   float mass = 0;               ///< 0 for static and kinematic
@@ -77,13 +78,13 @@ struct PointMemory {
 struct PairData {
   uint32_t shapeA = 0, shapeB = 0;  ///< slots, A < B
   uint32_t bodyA = 0, bodyB = 0;    ///< slots
-  Vec3d origin{};                   ///< A's centre of mass at the start of the step
-  Manifold manifold{};              ///< positions relative to origin
-  Vec3 normal{}, t1{}, t2{};        ///< basis that the memories are given in
-  PointMemory points[kMaxManifoldPoints]{};
+  Vec3d origin;                     ///< A's centre of mass at the start of the step
+  Manifold manifold;                ///< positions relative to origin
+  Vec3 normal, t1, t2;              ///< basis that the memories are given in
+  PointMemory points[kMaxManifoldPoints];
   int32_t pointCount = 0;                                   ///< of `points`: those of the last step
   float staticFriction = 0, friction = 0, restitution = 0;  ///< combined
-  bool slides = false;  ///< every point slipped in the last step: friction is dynamic
+  uint8_t slides = 0;  ///< steps since any point stuck, saturating: from 1 on friction is dynamic
   uint64_t key() const { return uint64_t(shapeA) << 32 | shapeB; }
 };
 

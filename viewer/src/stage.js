@@ -60,6 +60,7 @@ export class Stage {
     this.renderer =
         new THREE.WebGLRenderer({canvas, antialias: !this.software, powerPreference: 'high-performance'});
     this.renderer.toneMapping = THREE.NeutralToneMapping;
+    this.renderer.toneMappingExposure = 1.14;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
     this.scene = new THREE.Scene();
