@@ -265,6 +265,26 @@ TEST(Mjcf, RefusedByTheWorldWithThePlaceInTheFile) {
                 "t.xml:1: body \"b\": BodyDef.position");
 }
 
+TEST(Mjcf, TheShowcase) {
+  Model model = readMjcf(std::filesystem::path(__FILE__).parent_path() / "../scenes/showcase.xml");
+  EXPECT_EQ(model.name, "showcase");
+  EXPECT_EQ(model.world.bodyCount(), 80u);  // 55 bricks, 11 in the stack, 12 links and the ball, the world
+  EXPECT_EQ(model.world.jointCount(), 13u);
+  EXPECT_NEAR(model.dt, 1.0 / 60, 1e-8);
+  EXPECT_TRUE(model.notes.empty()) << model.notes[0];
+  EXPECT_FLOAT_EQ(model.world.mass(bodyOf(model, "heavy")), 1000);
+  EXPECT_FLOAT_EQ(model.world.mass(bodyOf(model, "ball")), 1000);
+  EXPECT_FLOAT_EQ(model.world.mass(bodyOf(model, "link_3")), 1);
+  // Nothing touches the chain on its way, and the heavy box stays up.
+  for (int i = 0; i < 300; ++i) model.world.step(static_cast<float>(model.dt));
+  EXPECT_NEAR(model.world.pose(bodyOf(model, "heavy")).position.z, 10.5, 0.05);
+  const BodyId ball = bodyOf(model, "ball");
+  for (const Contact& contact : model.world.contacts()) {
+    EXPECT_NE(contact.bodyA, ball);
+    EXPECT_NE(contact.bodyB, ball);
+  }
+}
+
 TEST(Mjcf, AFileThatIsNotThere) {
   try {
     readMjcf("/no/such/file.xml");

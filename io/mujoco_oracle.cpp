@@ -24,6 +24,7 @@ struct Loaded {
 };
 
 Loaded load(const std::string& file) {
+  mju_user_warning = [](const char*) {};  // else it writes a log file where the test runs
   Loaded out;
   char error[1000] = "";
   out.model.reset(mj_loadXML(file.c_str(), nullptr, error, sizeof error));
@@ -328,6 +329,7 @@ TEST(Oracle, TheSameBodiesTouch) {
       theirs.emplace(a, b);
     }
     EXPECT_EQ(touching(file), theirs) << head;
+    if (*head == '\0') EXPECT_GT(theirs.size(), 10u);
   }
 }
 

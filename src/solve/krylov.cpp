@@ -12,6 +12,7 @@ namespace avbd {
 
 namespace {
 
+constexpr float kSettled = 1e-5f;           ///< relative change of a tree's pose that ends its outer iterations
 constexpr float kRelativeResidual = 1e-9f;  ///< of r . M^-1 r, squared norm: an island below it is solved
 
 class Krylov {
@@ -20,7 +21,7 @@ class Krylov {
       : v_(view), k_(backend), forest_(forest), s_(scratch) {
     s_.rz.assign(v_.islands, 0);
     s_.limit.assign(v_.islands, 0);
-    s_.active.assign(v_.islands, 1);
+    s_.active = s_.unsolved;
   }
 
   void solve(int iterations) {
@@ -38,7 +39,7 @@ class Krylov {
  private:
   void precondition(bool violated) {
     k_.precondition(v_);
-    if (forest_) forest_->solve(v_, violated);
+    if (forest_) forest_->solve(v_, s_.active.data(), violated);
   }
 
   void begin() {
@@ -47,12 +48,14 @@ class Krylov {
       v_.r[i] = i < 8 * v_.bodies ? -v_.gradient[i] : 0.0f;
     }
     if (forest_) meetViolations();
+    if (!anyActive()) return;
     precondition(false);
     for (uint32_t n = 0; n < v_.islands; ++n) {
+      if (!s_.active[n]) continue;
       const IslandRange& island = v_.island[n];
       s_.rz[n] = k_.dot(v_.r, v_.z, island.begin, island.end);
       s_.limit[n] = kRelativeResidual * s_.rz[n];
-      s_.active[n] = s_.rz[n] > 0 && !(island.hasTree && !island.coupled);
+      s_.active[n] = s_.rz[n] > 0;
       if (s_.active[n]) k_.scaleAdd(v_.p, v_.z, 0, island.begin, island.end);
     }
   }
@@ -62,14 +65,16 @@ class Krylov {
     precondition(true);
     for (uint32_t n = 0; n < v_.islands; ++n) {
       const IslandRange& island = v_.island[n];
-      if (!island.hasTree) continue;
+      if (!island.hasTree || !s_.active[n]) continue;
       k_.scaleAdd(v_.p, v_.z, 0, island.begin, island.end);
       k_.scaleAdd(v_.x, v_.z, 0, island.begin, island.end);
+      if (!island.coupled) s_.active[n] = 0;
     }
+    if (!anyActive()) return;
     k_.multiply(v_);
     clearLocked(v_, v_.q);
     for (uint32_t n = 0; n < v_.islands; ++n)
-      if (v_.island[n].hasTree) k_.addScaled(v_.r, v_.q, -1, v_.island[n].begin, v_.island[n].end);
+      if (v_.island[n].hasTree && s_.active[n]) k_.addScaled(v_.r, v_.q, -1, v_.island[n].begin, v_.island[n].end);
   }
 
   bool anyActive() const {
@@ -111,18 +116,42 @@ class Krylov {
 
 }  // namespace
 
+namespace {
+
+float largest(const float* array, uint32_t begin, uint32_t end) {
+  float most = 0;
+  for (uint32_t i = 8 * begin; i < 8 * end; ++i) most = rows::max(most, rows::abs(array[i]));
+  return most;
+}
+
+/// Ends the outer iterations of trees that nothing else couples once they do not move any more: their iteration is
+/// Newton's, and only such an island's next iteration depends on nothing but itself.
+void retireSettled(const BatchView& view, KrylovScratch& scratch) {
+  for (uint32_t n = 0; n < view.islands; ++n) {
+    const IslandRange& island = view.island[n];
+    if (!island.hasTree || island.coupled || !scratch.unsolved[n]) continue;
+    const float moved = largest(view.x, island.begin, island.end), whole = largest(view.d, island.begin, island.end);
+    if (moved <= kSettled * whole) scratch.unsolved[n] = 0;
+  }
+}
+
+}  // namespace
+
 void solveKrylov(const BatchView& view, const Backend& backend, const SolveSettings& settings, Forest* forest,
                  KrylovScratch& scratch) {
+  scratch.unsolved.assign(view.islands, 1);
   for (int i = 0; i < settings.iterations; ++i) {
     backend.beginIteration(view);
     backend.stampRows(view, settings, i > 0);
-    if (forest) forest->stamp(view);
+    if (forest) forest->stamp(view, scratch.unsolved.data());
     if (view.lockedCount) applyLocks(view);
     backend.factor(view);
-    if (forest) forest->factor(view);
+    if (forest) forest->factor(view, scratch.unsolved.data());
     Krylov(view, backend, forest, scratch).solve(settings.krylovIterations);
     backend.addScaled(view.d, view.x, 1, 0, view.bodies);
-    if (forest) forest->updateMultipliers();
+    if (!forest) continue;
+    forest->updateMultipliers(scratch.unsolved.data());
+    retireSettled(view, scratch);
   }
 }
 

@@ -9,7 +9,8 @@ namespace avbd {
 /// What one batch is solved with; memory is kept between steps.
 struct KrylovScratch {
   std::vector<float> rz, limit;
-  std::vector<uint8_t> active;
+  std::vector<uint8_t> active;    ///< islands that still iterate within an outer iteration
+  std::vector<uint8_t> unsolved;  ///< islands that outer iterations still move
 };
 
 /// Runs all outer iterations: d and the multipliers of the batch move to the end of the step. `forest` may be null.

@@ -172,17 +172,20 @@ void ascend(const TreeNode& node, TreeJoint& joint, const float* parentZ, float*
 
 }  // namespace
 
-void Forest::stamp(const BatchView& view) {
+void Forest::stamp(const BatchView& view, const uint8_t* active) {
   for (TreeJoint& joint : joints) {
+    if (!active[joint.island]) continue;
     stampJoint(view, joint);
     if (view.lockedCount) maskLocked(joint, view);
   }
 }
 
-void Forest::factor(const BatchView& view) {
-  for (TreeNode& node : nodes) readBlock(view.hessian + kHessianRow * node.row, node.h);
+void Forest::factor(const BatchView& view, const uint8_t* active) {
+  for (TreeNode& node : nodes)
+    if (active[node.island]) readBlock(view.hessian + kHessianRow * node.row, node.h);
   for (size_t i = nodes.size(); i-- > 0;) {
     TreeNode& node = nodes[i];
+    if (!active[node.island]) continue;
     factorLdl(node.h, 6);
     if (node.joint < 0) continue;
     TreeJoint& joint = joints[static_cast<size_t>(node.joint)];
@@ -191,20 +194,25 @@ void Forest::factor(const BatchView& view) {
   }
 }
 
-void Forest::solve(const BatchView& view, bool violated) {
+void Forest::down(const BatchView& view, const uint8_t* active, bool violated) {
   for (TreeNode& node : nodes) {
+    if (!active[node.island]) continue;
     const Twist<float> r = readTwist(view.r, node.row);
     const float y[6] = {r.lin.x, r.lin.y, r.lin.z, r.ang.x, r.ang.y, r.ang.z};
     for (int k = 0; k < 6; ++k) node.y[k] = y[k];
   }
   for (size_t i = nodes.size(); i-- > 0;) {
     TreeNode& node = nodes[i];
-    if (node.joint < 0) continue;
+    if (node.joint < 0 || !active[node.island]) continue;
     TreeJoint& joint = joints[static_cast<size_t>(node.joint)];
     TreeNode* parent = node.parent >= 0 ? &nodes[static_cast<size_t>(node.parent)] : nullptr;
     joint.angular ? descend<6>(node, joint, parent, violated) : descend<3>(node, joint, parent, violated);
   }
+}
+
+void Forest::up(const BatchView& view, const uint8_t* active) {
   for (TreeNode& node : nodes) {
+    if (!active[node.island]) continue;
     float z[6];
     if (node.joint < 0) {
       for (int k = 0; k < 6; ++k) z[k] = node.y[k];
@@ -218,8 +226,11 @@ void Forest::solve(const BatchView& view, bool violated) {
     for (int k = 0; k < 3; ++k) out[k] = z[k], out[4 + k] = z[3 + k];
     for (int k = 0; k < 6; ++k) node.y[k] = z[k];  // children read it
   }
+}
+
+void Forest::takeFromResidual(const BatchView& view, const uint8_t* active) {
   for (const TreeNode& node : nodes) {
-    if (node.joint < 0) continue;
+    if (node.joint < 0 || !active[node.island]) continue;
     const TreeJoint& joint = joints[static_cast<size_t>(node.joint)];
     float* child = view.r + 8 * node.row;
     float* parent = node.parent >= 0 ? view.r + 8 * nodes[static_cast<size_t>(node.parent)].row : nullptr;
@@ -232,8 +243,15 @@ void Forest::solve(const BatchView& view, bool violated) {
   }
 }
 
-void Forest::updateMultipliers() {
+void Forest::solve(const BatchView& view, const uint8_t* active, bool violated) {
+  down(view, active, violated);
+  up(view, active);
+  takeFromResidual(view, active);
+}
+
+void Forest::updateMultipliers(const uint8_t* active) {
   for (TreeJoint& joint : joints) {
+    if (!active[joint.island]) continue;
     float* lambda[6] = {&joint.rows.ball.lambda.x, &joint.rows.ball.lambda.y, &joint.rows.ball.lambda.z,
                         &joint.rows.lambda.x,      &joint.rows.lambda.y,      &joint.rows.lambda.z};
     for (int i = 0; i < joint.m; ++i) *lambda[i] += joint.total[i];

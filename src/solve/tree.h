@@ -17,6 +17,7 @@ namespace avbd {
 struct TreeJoint {
   uint32_t rowA = 0, rowB = 0;  ///< body rows; the static row for the world
   uint32_t slot = 0;            ///< of the world's joint
+  uint32_t island = 0;          ///< of the batch
   bool angular = false;         ///< fixed joint: six rows; ball joint: three, in fixed.ball
   bool childIsA = true;
   rows::FixedJoint<float> rows;
@@ -30,25 +31,32 @@ struct TreeJoint {
 
 struct TreeNode {
   uint32_t row = 0;
+  uint32_t island = 0;  ///< of the batch
   int32_t parent = -1;  ///< node
   int32_t joint = -1;   ///< to the parent or to the world; -1 for a free root
   float h[6][6];        ///< block, then its LDL^T
   float y[6];           ///< right side on the way down
 };
 
-/// All trees of a batch; parents stand before children.
+/// All trees of a batch; parents stand before children. `active` tells of each island of the batch whether it takes part;
+/// the others are not touched, so that how long an island iterates changes nothing in its neighbours.
 class Forest {
  public:
   std::vector<TreeNode> nodes;
   std::vector<TreeJoint> joints;
 
   /// Adds the joints' forces and geometric stiffness to gradient, hessian and diagonal, and keeps J and C.
-  void stamp(const BatchView& view);
-  void factor(const BatchView& view);
+  void stamp(const BatchView& view, const uint8_t* active);
+  void factor(const BatchView& view, const uint8_t* active);
   /// Solves for the rows z of its bodies from r. `violated`: J z = -C, else J z = 0. Takes J^T mu off r.
-  void solve(const BatchView& view, bool violated);
+  void solve(const BatchView& view, const uint8_t* active, bool violated);
   /// Multipliers of the joints += those found since stamp().
-  void updateMultipliers();
+  void updateMultipliers(const uint8_t* active);
+
+ private:
+  void down(const BatchView& view, const uint8_t* active, bool violated);
+  void up(const BatchView& view, const uint8_t* active);
+  void takeFromResidual(const BatchView& view, const uint8_t* active);
 };
 
 }  // namespace avbd

@@ -74,6 +74,12 @@ void orient(Forest& forest, uint32_t bodies) {
     if (nodeOf[row] < 0 && !edges[row].empty()) grow(forest, edges, nodeOf, row, -1);
 }
 
+uint32_t islandOfRow(const StepData& step, const BatchRange& batch, uint32_t row) {
+  uint32_t n = 0;
+  while (step.ranges[batch.islandBegin + n].end <= row) ++n;
+  return n;
+}
+
 void addTet(const WorldData& world, StepData& step, BatchRange& batch, uint32_t slot) {
   step.tetJoint.push_back(slot);
   for (int i = 0; i < 4; ++i) step.tetRow[i].push_back(rowInBatch(world, step, batch, world.joints[slot].body[i]));
@@ -108,6 +114,7 @@ void plantForest(const WorldData& world, StepData& step, BatchRange& batch) {
         }
         TreeJoint& tree = forest->joints.emplace_back();
         tree.rowA = a, tree.rowB = b, tree.slot = slot, tree.angular = angular, tree.m = angular ? 6 : 3;
+        tree.island = n;
         range.hasTree = true;
         continue;
       }
@@ -117,7 +124,9 @@ void plantForest(const WorldData& world, StepData& step, BatchRange& batch) {
       range.coupled = true;
     }
   }
-  if (forest) orient(*forest, batch.bodies);
+  if (!forest) return;
+  orient(*forest, batch.bodies);
+  for (TreeNode& node : forest->nodes) node.island = islandOfRow(step, batch, node.row);
 }
 
 }  // namespace avbd
