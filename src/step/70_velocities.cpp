@@ -3,6 +3,7 @@
 
 #include "step/begin_rows.h"
 #include "step/free_motion.h"
+#include "step/restitution.h"
 
 namespace avbd {
 
@@ -42,18 +43,23 @@ StepData::EndState endState(const BodyData& body, const StepData& step, Vec3 gra
 
 void updateVelocities(WorldData& world, StepData& step) {
   step.end.resize(step.order.size());
+  step.rowOfEnd.resize(step.order.size());
+  step.endOf.assign(world.bodies.size(), kNone);
   for (const BatchRange& batch : step.batches)
     for (uint32_t i = 0; i < batch.bodies; ++i) {
       const uint32_t slot = step.order[batch.orderBegin + i];
       const size_t at = size_t(8) * (batch.rowBegin + i);
       if (!isFinite(readLin(step.target, at)) || !isFinite(readAng(step.target, at))) fail(world, Stage::Predict, slot);
       if (!isFinite(readLin(step.d, at)) || !isFinite(readAng(step.d, at))) fail(world, Stage::SolveBlocks, slot);
+      step.endOf[slot] = batch.orderBegin + i;
+      step.rowOfEnd[batch.orderBegin + i] = batch.rowBegin + i;
       StepData::EndState& end = step.end[batch.orderBegin + i];
       end = endState(world.bodies[slot], step, world.def.gravity, at);
       const bool finite = isFinite(end.position) && isFinite(end.linearVelocity) && isFinite(end.angularVelocity) &&
                           std::isfinite(end.rotation.w + end.rotation.x + end.rotation.y + end.rotation.z);
       if (!finite) fail(world, Stage::Velocities, slot);
     }
+  applyRestitution(world, step);
 }
 
 }  // namespace avbd

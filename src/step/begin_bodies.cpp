@@ -23,9 +23,12 @@ void lockInverse(float* row, uint8_t locks) {
 
 void fillBodies(const WorldData& world, StepData& step) {
   const float scale = 1 / (step.h * step.h);
+  step.globalRow.assign(world.bodies.size(), kNone);
   for (const BatchRange& batch : step.batches)
     for (uint32_t i = 0; i < batch.bodies; ++i) {
-      const BodyData& body = world.bodies[step.order[batch.orderBegin + i]];
+      const uint32_t slot = step.order[batch.orderBegin + i];
+      const BodyData& body = world.bodies[slot];
+      step.globalRow[slot] = batch.rowBegin + i;
       const rows::M33<float> turn = rows::toMatrix(toRow(body.rotation));
       const size_t at = size_t(8) * (batch.rowBegin + i);
       fill(step.mass.data() + at, body.mass, rotated(toRow(body.inertia), turn), scale);

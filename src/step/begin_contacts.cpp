@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "step/begin_rows.h"
+#include "step/restitution.h"
 
 namespace avbd {
 
@@ -15,15 +16,24 @@ float normalBias(const WorldData& world, const StepData& step, float separation)
   return std::min((1 - step.alpha) * -gap, world.def.maxDepenetrationSpeed * step.h);
 }
 
-rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& step, const PairData& pair, int i) {
+rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& step, PairData& pair, int i) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
-  const PointMemory& memory = pair.points[i];
+  PointMemory& memory = pair.points[i];
   const Vec3 slip = rotate(a.rotation, memory.anchorA) - rotate(b.rotation, memory.anchorB) -
                     toFloat(b.position - a.position);
+  // The force of an impact is no guess for the step after it.
+  if (memory.rebound > 0) memory.lambda = {};
   const float leak = step.solve.contactLeak;
   rows::ContactPointRows<float> p{};
   p.arm = toRow(pair.manifold.points[i].position);
   p.biasN = normalBias(world, step, pair.manifold.points[i].separation);
+  if (pair.restitution > 0) {
+    const Rebound answer = rebound(world, step, pair, i);
+    memory.rebound = answer.speed;
+    if (answer.speed > 0) p.biasN += step.slop + answer.height;
+  } else {
+    memory.rebound = 0;
+  }
   p.bias1 = (1 - step.alpha) * dot(slip, pair.t1);
   p.bias2 = (1 - step.alpha) * dot(slip, pair.t2);
   p.mu = pair.slides ? pair.friction : pair.staticFriction;
@@ -34,7 +44,7 @@ rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& 
   return p;
 }
 
-rows::Contact<float> contactRows(const WorldData& world, const StepData& step, const PairData& pair) {
+rows::Contact<float> contactRows(const WorldData& world, const StepData& step, PairData& pair) {
   rows::Contact<float> c{};
   c.n = toRow(pair.normal), c.t1 = toRow(pair.t1), c.t2 = toRow(pair.t2);
   c.loadStiffness = 1 / step.loadDepth;
@@ -52,7 +62,7 @@ rows::Contact<float> contactRows(const WorldData& world, const StepData& step, c
 
 }  // namespace
 
-void fillContacts(const WorldData& world, StepData& step) {
+void fillContacts(WorldData& world, StepData& step) {
   for (size_t lane = 0; lane < step.contactPair.size(); ++lane) {
     const uint32_t pair = step.contactPair[lane];
     rows::Contact<float> c{};

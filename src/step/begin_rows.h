@@ -18,7 +18,7 @@ inline Quat fromRow(rows::Q4<float> q) { return {q.w, q.x, q.y, q.z}; }
 /// Cuts the islands into batches and gives every body its row, every pair and joint its lane.
 void layOutBatches(const WorldData& world, StepData& step);
 void fillBodies(const WorldData& world, StepData& step);
-void fillContacts(const WorldData& world, StepData& step);
+void fillContacts(WorldData& world, StepData& step);
 void fillJoints(const WorldData& world, StepData& step);
 
 /// Body row that a joint or pair names in its batch.

@@ -53,6 +53,7 @@ struct StepData {
   std::vector<uint32_t> islandJoints; ///< joint slots
   std::vector<BatchRange> batches;
   std::vector<uint32_t> rowOf;        ///< by body slot: row within its batch; static bodies: kNone
+  std::vector<uint32_t> globalRow;    ///< by body slot: row over all batches, of dynamic bodies
   std::vector<uint32_t> kinematic;    ///< slots
   std::vector<uint32_t> kinematicBatch;  ///< by body slot: the last batch that gave it a row
   struct KinematicRow {
@@ -90,6 +91,8 @@ struct StepData {
     Vec3 linearVelocity, angularVelocity;
   };
   std::vector<EndState> end;
+  std::vector<uint32_t> rowOfEnd;  ///< body row over all batches, by index in end
+  std::vector<uint32_t> endOf;     ///< index in end, by body slot
 
   BatchView view(size_t batch);
 };

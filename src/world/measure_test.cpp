@@ -117,7 +117,7 @@ TEST(StateHash, SeesEveryFieldThatAStepChanges) {
       [](WorldData& d) { d.pairs[0].points[0].anchorA.y = 1; },
       [](WorldData& d) { d.pairs[0].points[0].anchorB.y = 1; },
       [](WorldData& d) { d.pairs[0].points[0].feature = 1; },
-      [](WorldData& d) { d.pairs[0].points[0].approach = 1; },
+      [](WorldData& d) { d.pairs[0].points[0].rebound = 1; },
       [](WorldData& d) { d.pairs[0].points[0].sticks = 1; },
       [](WorldData& d) { d.pairs[0].points[0].age = 1; },
       [](WorldData& d) { d.pairs.clear(); },

@@ -20,7 +20,7 @@ void add(Hash64& hash, const PointMemory& point) {
   hash.value(point.lambda);
   hash.value(point.anchorA);
   hash.value(point.anchorB);
-  hash.value(point.approach);
+  hash.value(point.rebound);
   hash.value(point.sticks);
   hash.value(point.age);
 }

@@ -69,7 +69,7 @@ struct PointMemory {
   uint32_t feature = 0;
   Vec3 lambda;            ///< force of the last step [N]: along the normal (>= 0), t1, t2
   Vec3 anchorA, anchorB;  ///< where it stuck: relative to the centre of mass, body axes
-  float approach = 0;     ///< [m/s] speed of approach that restitution has still to answer
+  float rebound = 0;      ///< [m/s] at which it left the other surface in the last step; 0: it did not
   uint8_t sticks = 0;     ///< it did not slip in the last step
   uint8_t age = 0;        ///< steps since it was found, saturating
 };

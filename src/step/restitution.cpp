@@ -1,0 +1,130 @@
+// Restitution: where and how fast contacts rebound.
+#include "step/restitution.h"
+
+#include <algorithm>
+
+#include "step/begin_rows.h"
+
+namespace avbd {
+
+namespace {
+
+constexpr int kPasses = 8;  ///< over the rebounding rows
+
+Vec3 velocityAt(Vec3 linear, Vec3 angular, Vec3 arm) { return linear + cross(angular, arm); }
+
+Vec3 freeAcceleration(const WorldData& world, const BodyData& body) {
+  if (body.type != BodyType::Dynamic) return {};
+  return world.def.gravity * body.gravityScale + body.force * (1 / body.mass);
+}
+
+/// One rebounding row.
+struct Bounce {
+  uint32_t a = kNone, b = kNone;  ///< in step.end; kNone where the body is not dynamic
+  Vec3 n, armA, armB;
+  Vec3 turnA, turnB;  ///< I^-1 (arm x n)
+  float speed = 0;    ///< to reach
+  float fixedSpeed = 0;  ///< of kinematic bodies along n, B minus A
+  float weight = 0;      ///< 1 / inverse mass along n
+  float impulse = 0, least = 0;
+};
+
+Vec3 turning(const StepData& step, uint32_t row, Vec3 torque) {
+  const float* m = step.invMass.data() + size_t(8) * row;
+  return fromRow(rows::Sym3<float>{m[1], m[2], m[3], m[4], m[5], m[6]} * toRow(torque));
+}
+
+void addSide(const WorldData& world, const StepData& step, uint32_t slot, Vec3 arm, float sign, Bounce& bounce) {
+  const BodyData& body = world.bodies[slot];
+  if (body.type != BodyType::Dynamic) {
+    bounce.fixedSpeed += sign * dot(bounce.n, velocityAt(body.linearVelocity, body.angularVelocity, arm));
+    return;
+  }
+  const uint32_t row = step.globalRow[slot];
+  const Vec3 lever = cross(arm, bounce.n);
+  const Vec3 turn = turning(step, row, lever);
+  bounce.weight += step.invMass[size_t(8) * row] + dot(lever, turn);
+  (sign > 0 ? bounce.b : bounce.a) = step.endOf[slot];
+  (sign > 0 ? bounce.turnB : bounce.turnA) = turn;
+}
+
+Bounce makeBounce(const WorldData& world, const StepData& step, const PairData& pair, int i) {
+  Bounce bounce;
+  bounce.n = pair.normal;
+  bounce.armA = pair.manifold.points[i].position;
+  bounce.armB = bounce.armA - toFloat(world.bodies[pair.bodyB].position - pair.origin);
+  addSide(world, step, pair.bodyA, bounce.armA, -1, bounce);
+  addSide(world, step, pair.bodyB, bounce.armB, 1, bounce);
+  bounce.speed = pair.points[i].rebound;
+  bounce.weight = bounce.weight > 0 ? 1 / bounce.weight : 0;
+  return bounce;
+}
+
+void push(StepData& step, const Bounce& bounce, float impulse) {
+  const auto give = [&](uint32_t index, Vec3 turn, float p, const float* invMass) {
+    StepData::EndState& end = step.end[index];
+    end.linearVelocity = end.linearVelocity + bounce.n * (p * invMass[0]);
+    end.angularVelocity = end.angularVelocity + turn * p;
+  };
+  if (bounce.a != kNone) give(bounce.a, bounce.turnA, -impulse, step.invMass.data() + size_t(8) * step.rowOfEnd[bounce.a]);
+  if (bounce.b != kNone) give(bounce.b, bounce.turnB, impulse, step.invMass.data() + size_t(8) * step.rowOfEnd[bounce.b]);
+}
+
+float separationSpeed(const StepData& step, const Bounce& bounce) {
+  float speed = bounce.fixedSpeed;
+  if (bounce.b != kNone) {
+    const StepData::EndState& end = step.end[bounce.b];
+    speed += dot(bounce.n, velocityAt(end.linearVelocity, end.angularVelocity, bounce.armB));
+  }
+  if (bounce.a != kNone) {
+    const StepData::EndState& end = step.end[bounce.a];
+    speed -= dot(bounce.n, velocityAt(end.linearVelocity, end.angularVelocity, bounce.armA));
+  }
+  return speed;
+}
+
+}  // namespace
+
+Rebound rebound(const WorldData& world, const StepData& step, const PairData& pair, int i) {
+  const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
+  const Vec3 armA = pair.manifold.points[i].position;
+  const Vec3 armB = armA - toFloat(b.position - a.position);
+  const float h = step.h;
+  const float approach = dot(pair.normal, velocityAt(a.linearVelocity, a.angularVelocity, armA) -
+                                              velocityAt(b.linearVelocity, b.angularVelocity, armB));
+  const float pull = dot(pair.normal, freeAcceleration(world, a) - freeAcceleration(world, b));
+  const float gap = std::max(pair.manifold.points[i].separation, 0.0f);
+  const float now = approach + pull * (0.5f * h);  // at the start of the step
+  if (!(approach > world.def.restitutionThreshold) || !(now > 0) || gap >= h * (now + 0.5f * pull * h)) return {};
+  float time = gap / now;
+  for (int k = 0; k < 3; ++k) time = gap / std::max(now + 0.5f * pull * time, 0.5f * now);
+  time = std::min(time, h);
+  const float leave = pair.restitution * (now + pull * time), left = h - time;
+  const float height = leave * left - 0.5f * pull * left * left;
+  return {std::max(height, 0.0f), std::max(leave - pull * (0.5f * h - time), 0.0f)};
+}
+
+void applyRestitution(const WorldData& world, StepData& step) {
+  std::vector<Bounce> bounces;
+  for (size_t lane = 0; lane < step.contactPair.size(); ++lane) {
+    if (step.contactPair[lane] == kNone) continue;
+    const PairData& pair = world.pairs[step.contactPair[lane]];
+    if (pair.restitution <= 0) continue;
+    for (int i = 0; i < pair.pointCount; ++i) {
+      if (pair.points[i].rebound <= 0) continue;
+      const float force = step.contacts[lane / kTile].get(lane % kTile).point[i].lambdaN;
+      if (force <= 0) continue;
+      bounces.push_back(makeBounce(world, step, pair, i));
+      bounces.back().least = -force * step.h;
+    }
+  }
+  for (int pass = 0; pass < kPasses; ++pass)
+    for (Bounce& bounce : bounces) {
+      const float wanted = bounce.impulse + bounce.weight * (bounce.speed - separationSpeed(step, bounce));
+      const float next = std::max(wanted, bounce.least);
+      push(step, bounce, next - bounce.impulse);
+      bounce.impulse = next;
+    }
+}
+
+}  // namespace avbd
