@@ -68,6 +68,19 @@ void solveLdl(const float (&a)[kMax][kMax], int n, float* x) {
     for (int j = i + 1; j < n; ++j) x[i] -= a[j][i] * x[j];
 }
 
+/// The same for kColumns right-hand sides side by side.
+template <int kColumns>
+void solveLdlColumns(const float (&a)[6][6], float (&x)[6][8]) {
+  for (int i = 1; i < 6; ++i)
+    for (int j = 0; j < i; ++j)
+      for (int c = 0; c < kColumns; ++c) x[i][c] -= a[i][j] * x[j][c];
+  for (int i = 0; i < 6; ++i)
+    for (int c = 0; c < kColumns; ++c) x[i][c] *= a[i][i];
+  for (int i = 4; i >= 0; --i)
+    for (int j = i + 1; j < 6; ++j)
+      for (int c = 0; c < kColumns; ++c) x[i][c] -= a[j][i] * x[j][c];
+}
+
 void fillJacobian(float (&j)[6], const rows::PairRow<float>& row, const V3<float>& arm, float sign) {
   const V3<float> ang = cross(arm, row.lin) + row.ang;
   j[0] = sign * row.lin.x, j[1] = sign * row.lin.y, j[2] = sign * row.lin.z;
@@ -113,16 +126,16 @@ void maskLocked(TreeJoint& joint, const BatchView& v) {
 /// Eliminates the node: its block is complete. Adds what it leaves to the parent.
 template <int kRows>
 void eliminate(TreeNode& node, TreeJoint& joint, TreeNode* parent) {
+  constexpr int kColumns = kRows <= 4 ? 4 : 8;
+  for (int k = 0; k < 6; ++k)
+    for (int i = 0; i < kColumns; ++i) joint.u[k][i] = i < kRows ? joint.jc[i][k] : 0.0f;
+  solveLdlColumns<kColumns>(node.h, joint.u);
   for (int i = 0; i < kRows; ++i) {
-    for (int k = 0; k < 6; ++k) joint.u[i][k] = joint.jc[i][k];
-    solveLdl(node.h, 6, joint.u[i]);
+    float sum[kColumns] = {};
+    for (int k = 0; k < 6; ++k)
+      for (int j = 0; j < kColumns; ++j) sum[j] += joint.jc[i][k] * joint.u[k][j];
+    for (int j = 0; j <= i; ++j) joint.sFactor[i][j] = sum[j];
   }
-  for (int i = 0; i < kRows; ++i)
-    for (int j = 0; j <= i; ++j) {
-      float sum = 0;
-      for (int k = 0; k < 6; ++k) sum += joint.jc[i][k] * joint.u[j][k];
-      joint.sFactor[i][j] = sum;
-    }
   factorLdl(joint.sFactor, kRows);
   if (!parent) return;
   for (int k = 0; k < 6; ++k) {
@@ -143,10 +156,9 @@ void eliminate(TreeNode& node, TreeJoint& joint, TreeNode* parent) {
 template <int kRows>
 void descend(const TreeNode& node, TreeJoint& joint, TreeNode* parent, bool violated) {
   float t[kRows];
-  for (int i = 0; i < kRows; ++i) {
-    t[i] = violated ? joint.violation[i] : 0.0f;
-    for (int k = 0; k < 6; ++k) t[i] += joint.u[i][k] * node.y[k];
-  }
+  for (int i = 0; i < kRows; ++i) t[i] = violated ? joint.violation[i] : 0.0f;
+  for (int k = 0; k < 6; ++k)
+    for (int i = 0; i < kRows; ++i) t[i] += joint.u[k][i] * node.y[k];
   solveLdl(joint.sFactor, kRows, t);
   for (int i = 0; i < kRows; ++i) joint.mu[i] = t[i];
   if (!parent) return;
@@ -167,7 +179,7 @@ void ascend(const TreeNode& node, TreeJoint& joint, const float* parentZ, float*
   for (int k = 0; k < 6; ++k) z[k] = node.y[k];
   solveLdl(node.h, 6, z);
   for (int k = 0; k < 6; ++k)
-    for (int i = 0; i < kRows; ++i) z[k] -= joint.u[i][k] * joint.mu[i];
+    for (int i = 0; i < kRows; ++i) z[k] -= joint.u[k][i] * joint.mu[i];
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct TreeJoint {
   int m = 3;
   float violation[6], mu[6], total[6];
   float jc[6][6], jp[6][6];  ///< rows of J
-  float u[6][6];             ///< Hc^-1 Jc^T, a column of it per row here
+  float u[6][8];             ///< Hc^-1 Jc^T; columns beyond m are 0 (a register at a time)
   float sFactor[6][6];       ///< LDL^T of S, inverse pivots on the diagonal
   float w[6][6];             ///< S^-1 Jp
 };

@@ -5,73 +5,63 @@ namespace avbd {
 
 namespace {
 
-/// Union-find over the rows of a batch; the world is one more element.
-class Sets {
- public:
-  explicit Sets(uint32_t count) : parent_(count) {
-    for (uint32_t i = 0; i < count; ++i) parent_[i] = i;
-  }
-  /// False if both were in one set already.
-  bool join(uint32_t a, uint32_t b) {
-    a = find(a), b = find(b);
-    if (a == b) return false;
-    parent_[a < b ? b : a] = a < b ? a : b;
-    return true;
-  }
+uint32_t find(std::vector<uint32_t>& set, uint32_t i) {
+  while (set[i] != i) i = set[i] = set[set[i]];
+  return i;
+}
 
- private:
-  uint32_t find(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  std::vector<uint32_t> parent_;
-};
+/// False if both were in one set already.
+bool join(std::vector<uint32_t>& set, uint32_t a, uint32_t b) {
+  a = find(set, a), b = find(set, b);
+  if (a == b) return false;
+  set[a < b ? b : a] = a < b ? a : b;
+  return true;
+}
 
-struct Edge {
-  uint32_t joint;     ///< index in Forest::joints
-  uint32_t neighbour; ///< row
-};
+void addEdge(ForestScratch& scratch, uint32_t row, uint32_t joint, uint32_t neighbour) {
+  scratch.edges.push_back({joint, neighbour, scratch.first[row]});
+  scratch.first[row] = static_cast<uint32_t>(scratch.edges.size() - 1);
+}
 
 /// Adds row's node and all that hang on it, parents first.
-void grow(Forest& forest, const std::vector<std::vector<Edge>>& edges, std::vector<int32_t>& nodeOf, uint32_t root,
-          int32_t worldJoint) {
-  nodeOf[root] = static_cast<int32_t>(forest.nodes.size());
-  forest.nodes.push_back({});
+void grow(Forest& forest, ForestScratch& scratch, uint32_t root, int32_t worldJoint) {
+  scratch.nodeOf[root] = static_cast<int32_t>(forest.nodes.size());
+  forest.nodes.emplace_back();
   forest.nodes.back().row = root;
   forest.nodes.back().joint = worldJoint;
   for (size_t next = forest.nodes.size() - 1; next < forest.nodes.size(); ++next) {
-    const uint32_t row = forest.nodes[next].row;
-    for (const Edge& edge : edges[row]) {
-      if (nodeOf[edge.neighbour] >= 0) continue;
-      nodeOf[edge.neighbour] = static_cast<int32_t>(forest.nodes.size());
-      TreeNode node;
+    for (uint32_t e = scratch.first[forest.nodes[next].row]; e != kNone; e = scratch.edges[e].next) {
+      const ForestEdge& edge = scratch.edges[e];
+      if (scratch.nodeOf[edge.neighbour] >= 0) continue;
+      scratch.nodeOf[edge.neighbour] = static_cast<int32_t>(forest.nodes.size());
+      TreeNode& node = forest.nodes.emplace_back();
       node.row = edge.neighbour;
       node.parent = static_cast<int32_t>(next);
       node.joint = static_cast<int32_t>(edge.joint);
-      forest.nodes.push_back(node);
       forest.joints[edge.joint].childIsA = forest.joints[edge.joint].rowA == edge.neighbour;
     }
   }
 }
 
 /// Orients the chosen joints: first what hangs on the world, then free trees from their lowest row.
-void orient(Forest& forest, uint32_t bodies) {
-  std::vector<std::vector<Edge>> edges(bodies);
-  std::vector<int32_t> nodeOf(bodies, -1);
+void orient(Forest& forest, ForestScratch& scratch, uint32_t bodies) {
+  scratch.first.assign(bodies, kNone);
+  scratch.nodeOf.assign(bodies, -1);
+  scratch.edges.clear();
   for (uint32_t i = 0; i < forest.joints.size(); ++i) {
     const TreeJoint& joint = forest.joints[i];
     if (joint.rowA >= bodies || joint.rowB >= bodies) continue;
-    edges[joint.rowA].push_back({i, joint.rowB});
-    edges[joint.rowB].push_back({i, joint.rowA});
+    addEdge(scratch, joint.rowA, i, joint.rowB);
+    addEdge(scratch, joint.rowB, i, joint.rowA);
   }
   for (uint32_t i = 0; i < forest.joints.size(); ++i) {
     TreeJoint& joint = forest.joints[i];
     if (joint.rowA < bodies && joint.rowB < bodies) continue;
     joint.childIsA = joint.rowA < bodies;
-    grow(forest, edges, nodeOf, joint.childIsA ? joint.rowA : joint.rowB, static_cast<int32_t>(i));
+    grow(forest, scratch, joint.childIsA ? joint.rowA : joint.rowB, static_cast<int32_t>(i));
   }
   for (uint32_t row = 0; row < bodies; ++row)
-    if (nodeOf[row] < 0 && !edges[row].empty()) grow(forest, edges, nodeOf, row, -1);
+    if (scratch.nodeOf[row] < 0 && scratch.first[row] != kNone) grow(forest, scratch, row, -1);
 }
 
 uint32_t islandOfRow(const StepData& step, const BatchRange& batch, uint32_t row) {
@@ -80,53 +70,70 @@ uint32_t islandOfRow(const StepData& step, const BatchRange& batch, uint32_t row
   return n;
 }
 
+Forest& forestOf(StepData& step, BatchRange& batch) {
+  if (batch.forest == kNone) {
+    if (step.forestCount == step.forests.size()) step.forests.emplace_back();
+    batch.forest = step.forestCount++;
+    step.forests[batch.forest].nodes.clear();
+    step.forests[batch.forest].joints.clear();
+  }
+  return step.forests[batch.forest];
+}
+
 void addTet(const WorldData& world, StepData& step, BatchRange& batch, uint32_t slot) {
   step.tetJoint.push_back(slot);
   for (int i = 0; i < 4; ++i) step.tetRow[i].push_back(rowInBatch(world, step, batch, world.joints[slot].body[i]));
 }
 
+void addToTree(StepData& step, BatchRange& batch, const TreeJoint& joint) {
+  forestOf(step, batch).joints.push_back(joint);
+  step.ranges[batch.islandBegin + joint.island].hasTree = true;
+}
+
+/// A joint that closes a loop: rows of their own.
+void addToTiles(StepData& step, BatchRange& batch, const TreeJoint& joint) {
+  auto& lanes = joint.angular ? step.fixedRow : step.ballRow;
+  (joint.angular ? step.fixedJoint : step.ballJoint).push_back(joint.slot);
+  lanes[0].push_back(joint.rowA), lanes[1].push_back(joint.rowB);
+  step.ranges[batch.islandBegin + joint.island].coupled = true;
+}
+
+void placeJoint(const WorldData& world, StepData& step, BatchRange& batch, uint32_t slot, uint32_t island) {
+  const JointData& data = world.joints[slot];
+  TreeJoint joint;
+  joint.rowA = rowInBatch(world, step, batch, data.body[0]);
+  joint.rowB = rowInBatch(world, step, batch, data.body[1]);
+  joint.slot = slot, joint.island = island;
+  joint.angular = data.type == JointType::Fixed;
+  joint.m = joint.angular ? 6 : 3;
+  const auto element = [&](uint32_t row) { return row < batch.bodies ? row : batch.bodies; };
+  const bool tree = world.def.primalSolver == PrimalSolver::Krylov &&
+                    join(step.planting.set, element(joint.rowA), element(joint.rowB));
+  tree ? addToTree(step, batch, joint) : addToTiles(step, batch, joint);
+}
+
 }  // namespace
 
 void plantForest(const WorldData& world, StepData& step, BatchRange& batch) {
-  Sets sets(batch.bodies + 1);
-  Forest* forest = nullptr;
-  const auto element = [&](uint32_t row) { return row < batch.bodies ? row : batch.bodies; };
+  std::vector<uint32_t>& set = step.planting.set;
+  set.resize(batch.bodies + 1);
+  for (uint32_t i = 0; i <= batch.bodies; ++i) set[i] = i;
   for (uint32_t n = 0; n < batch.islandCount; ++n) {
     const Island& island = step.islands[batch.islandBegin + n];
-    IslandRange& range = step.ranges[batch.islandBegin + n];
     for (uint32_t i = 0; i < island.jointCount; ++i) {
       const uint32_t slot = step.islandJoints[island.jointBegin + i];
-      const JointData& joint = world.joints[slot];
-      if (joint.type == JointType::TetVolume) {
-        addTet(world, step, batch, slot);
-        range.coupled = true;
+      if (world.joints[slot].type != JointType::TetVolume) {
+        placeJoint(world, step, batch, slot, n);
         continue;
       }
-      const uint32_t a = rowInBatch(world, step, batch, joint.body[0]);
-      const uint32_t b = rowInBatch(world, step, batch, joint.body[1]);
-      const bool angular = joint.type == JointType::Fixed;
-      if (sets.join(element(a), element(b))) {
-        if (!forest) {
-          if (step.forestCount == step.forests.size()) step.forests.emplace_back();
-          batch.forest = step.forestCount++;
-          forest = &step.forests[batch.forest];
-          forest->nodes.clear(), forest->joints.clear();
-        }
-        TreeJoint& tree = forest->joints.emplace_back();
-        tree.rowA = a, tree.rowB = b, tree.slot = slot, tree.angular = angular, tree.m = angular ? 6 : 3;
-        tree.island = n;
-        range.hasTree = true;
-        continue;
-      }
-      auto& lanes = angular ? step.fixedRow : step.ballRow;
-      (angular ? step.fixedJoint : step.ballJoint).push_back(slot);
-      lanes[0].push_back(a), lanes[1].push_back(b);
-      range.coupled = true;
+      addTet(world, step, batch, slot);
+      step.ranges[batch.islandBegin + n].coupled = true;
     }
   }
-  if (!forest) return;
-  orient(*forest, batch.bodies);
-  for (TreeNode& node : forest->nodes) node.island = islandOfRow(step, batch, node.row);
+  if (batch.forest == kNone) return;
+  Forest& forest = step.forests[batch.forest];
+  orient(forest, step.planting, batch.bodies);
+  for (TreeNode& node : forest.nodes) node.island = islandOfRow(step, batch, node.row);
 }
 
 }  // namespace avbd

@@ -18,17 +18,6 @@ Vec3 freeAcceleration(const WorldData& world, const BodyData& body) {
   return world.def.gravity * body.gravityScale + body.force * (1 / body.mass);
 }
 
-/// One rebounding row.
-struct Bounce {
-  uint32_t a = kNone, b = kNone;  ///< in step.end; kNone where the body is not dynamic
-  Vec3 n, armA, armB;
-  Vec3 turnA, turnB;  ///< I^-1 (arm x n)
-  float speed = 0;    ///< to reach
-  float fixedSpeed = 0;  ///< of kinematic bodies along n, B minus A
-  float weight = 0;      ///< 1 / inverse mass along n
-  float impulse = 0, least = 0;
-};
-
 Vec3 turning(const StepData& step, uint32_t row, Vec3 torque) {
   const float* m = step.invMass.data() + size_t(8) * row;
   return fromRow(rows::Sym3<float>{m[1], m[2], m[3], m[4], m[5], m[6]} * toRow(torque));
@@ -105,7 +94,8 @@ Rebound rebound(const WorldData& world, const StepData& step, const PairData& pa
 }
 
 void applyRestitution(const WorldData& world, StepData& step) {
-  std::vector<Bounce> bounces;
+  std::vector<Bounce>& bounces = step.bounces;
+  bounces.clear();
   for (size_t lane = 0; lane < step.contactPair.size(); ++lane) {
     if (step.contactPair[lane] == kNone) continue;
     const PairData& pair = world.pairs[step.contactPair[lane]];

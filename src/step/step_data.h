@@ -31,6 +31,31 @@ struct BatchRange {
   uint32_t forest = kNone;  ///< in StepData::forests
 };
 
+/// A contact row that rebounds (restitution.h).
+struct Bounce {
+  uint32_t a = kNone, b = kNone;  ///< in StepData::end; kNone where the body is not dynamic
+  Vec3 n, armA, armB;
+  Vec3 turnA, turnB;             ///< I^-1 (arm x n)
+  float speed = 0;               ///< to reach
+  float fixedSpeed = 0;          ///< of kinematic bodies along n, B minus A
+  float weight = 0;              ///< 1 / inverse mass along n
+  float impulse = 0, least = 0;  ///< [N s]
+};
+
+/// A tree joint as a body row sees it, in a list that starts at ForestScratch::first.
+struct ForestEdge {
+  uint32_t joint = 0;      ///< index in Forest::joints
+  uint32_t neighbour = 0;  ///< row
+  uint32_t next = kNone;   ///< edge of the same row
+};
+
+struct ForestScratch {
+  std::vector<uint32_t> set;     ///< union-find over the rows of a batch and the world
+  std::vector<uint32_t> first;   ///< by row: its first edge
+  std::vector<ForestEdge> edges;
+  std::vector<int32_t> nodeOf;   ///< by row
+};
+
 struct StepData {
   float h = 0;         ///< [s] of a substep
   float alpha = 0;     ///< share of a violation at the start of the step that a row keeps
@@ -82,6 +107,7 @@ struct StepData {
   AlignedVector<Tile<NodeOp>> tetOp;
   std::vector<Forest> forests;  ///< the first forestCount are in use
   uint32_t forestCount = 0;
+  ForestScratch planting;
   KrylovScratch krylov;
 
   // 70_velocities: the state at the end of the step, by StepData::order; written back by 90_publish
@@ -91,6 +117,7 @@ struct StepData {
     Vec3 linearVelocity, angularVelocity;
   };
   std::vector<EndState> end;
+  std::vector<Bounce> bounces;
   std::vector<uint32_t> rowOfEnd;  ///< body row over all batches, by index in end
   std::vector<uint32_t> endOf;     ///< index in end, by body slot
 
