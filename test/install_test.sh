@@ -31,7 +31,7 @@ for wanted in include/avbd/avbd.h include/avbd/world.h bin/avbd; do
 done
 "$prefix/bin/avbd" --help > /dev/null || fail "bin/avbd --help exits with $?"
 
-cmake -S "$source/samples" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release > /dev/null
+cmake -G Ninja -S "$source/samples" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release > /dev/null
 cmake --build "$scratch/build" > /dev/null
 checkHello "$scratch/build/hello"
 

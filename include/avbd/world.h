@@ -31,6 +31,9 @@ struct WorldDef {
   float maxDepenetrationSpeed = 3; ///< [m/s] at most, for bodies that overlap at the start of a step
   PrimalSolver primalSolver = PrimalSolver::Krylov;
   int krylovIterations = 0;  ///< conjugate-gradient steps per outer iteration; 0 takes the default, <= 1000
+  /// Where joints take their arms: 0 at the step's start (symplectic; unstable under heavy loads), 1 at its end (implicit;
+  /// eats energy), between: a blend. -1 chooses for each joint and step by its stability number (docs/method.md).
+  float jointArmBlend = -1;
   int simdWidth = 0;         ///< 1, 4, 8, 16; 0 takes the widest that this processor runs. Changes no bit of the result.
 };
 

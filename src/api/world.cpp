@@ -3,6 +3,7 @@
 #include "world/check.h"
 #include "world/limits.h"
 #include "world/measure.h"
+#include "world/pairs.h"
 #include "world/state_hash.h"
 
 namespace avbd {
@@ -20,6 +21,7 @@ World& World::operator=(World&&) noexcept = default;
 const StepReport& World::step(float dt) {
   // Written so that NaN is refused.
   if (!(dt > 0 && dt <= 1)) (Path("World::step") / "dt").refuse(toText(dt), "must be finite and > 0 and at most 1");
+  dropForgottenPairs(impl_->data);
   impl_->stepper.step(impl_->data, dt);
   return impl_->data.report;
 }

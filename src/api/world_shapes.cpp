@@ -51,7 +51,7 @@ void World::destroy(ShapeId id) {
     mass = shapesMass(rest, data.bodies[body].massScale);
     if (mass.mass != 0) checkShapesMass(path / "id", mass);
   }
-  erasePairsOfShape(data, slot);
+  forgetPairsOfShape(data, slot);
   removeShape(data, slot);
   // A body never becomes massless: without shapes that have mass it keeps what it had.
   if (mass.mass != 0) setMass(data, body, mass);
@@ -75,7 +75,7 @@ Filter World::filter(ShapeId id) const { return shapeOf(impl_->data, id, "World:
 void World::setFilter(ShapeId id, const Filter& filter) {
   const uint32_t slot = slotOf(impl_->data, id, Path("World::setFilter") / "id");
   impl_->data.shapes[slot].filter = filter;
-  erasePairsOfShape(impl_->data, slot);
+  forgetPairsOfShape(impl_->data, slot);
   markUnpaired(impl_->data, slot);
 }
 

@@ -63,6 +63,16 @@ TEST_F(Resting, ExclusionLetsItFall) {
   expectFalls();
 }
 
+TEST_F(Resting, ExclusionsDieWithTheirBodies) {
+  world.excludeCollision(box, ground);
+  const uint32_t slot = box.index;
+  world.destroy(box);
+  box = world.create(BodyDef{.position = {0, 0.5, 0}, .shape = Box{}});
+  ASSERT_EQ(box.index, slot);
+  run(world, 60);
+  EXPECT_NEAR(height(), 0.5, 0.01);
+}
+
 TEST_F(Resting, GroundDestroyed) {
   world.destroy(ground);
   expectFalls();

@@ -5,6 +5,9 @@
 
 namespace avbd {
 
+struct SweepView;
+struct SweepColor;
+
 struct Backend {
   int width;
   /// Fills the stiffness floors of contact tiles from the masses.
@@ -26,6 +29,14 @@ struct Backend {
   void (*addScaled)(float* y, const float* x, float s, uint32_t begin, uint32_t end);
   /// y = x + s y.
   void (*scaleAdd)(float* y, const float* x, float s, uint32_t begin, uint32_t end);
+
+  // Block sweep (sweep.h).
+  /// Copies the pairs to their records; with `dual` moves the multipliers first.
+  void (*stageRecords)(const BatchView&, const SweepView&, const SolveSettings&, bool dual);
+  /// gradient and hessian of the bodies of a colour, by place.
+  void (*stampColor)(const BatchView&, const SweepView&, const SweepColor&);
+  /// d -= hessian^-1 gradient for the bodies of a colour.
+  void (*solveColor)(const BatchView&, const SweepView&, const SweepColor&);
 };
 
 /// Table for a width that this processor runs: 1, 4, 8, 16.

@@ -300,9 +300,14 @@ void scaleAdd(float* y, const float* x, float s, uint32_t begin, uint32_t end) {
 }
 
 }  // namespace
+}  // namespace avbd::AVBD_LANES_NAMESPACE
+
+#include "solve/sweep_kernels.h"
+
+namespace avbd::AVBD_LANES_NAMESPACE {
 
 extern const Backend kBackend;
-const Backend kBackend = {N,        prepareContacts, beginIteration, stampRows, updateRows, factor,
-                          precondition, multiply,    dotRows,        addScaled, scaleAdd};
+const Backend kBackend = {N,        prepareContacts, beginIteration, stampRows, updateRows, factor,     precondition,
+                          multiply, dotRows,         addScaled,      scaleAdd,  stageRecords, stampColor, solveColor};
 
 }  // namespace avbd::AVBD_LANES_NAMESPACE

@@ -12,7 +12,7 @@ namespace avbd {
 
 namespace {
 
-constexpr float kSettled = 1e-5f;           ///< relative change of a tree's pose that ends its outer iterations
+constexpr float kSettled = 3e-5f;           ///< relative change of a tree's pose that ends its outer iterations
 constexpr float kRelativeResidual = 1e-9f;  ///< of r . M^-1 r, squared norm: an island below it is solved
 
 class Krylov {

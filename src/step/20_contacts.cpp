@@ -76,38 +76,53 @@ void matchPoints(const PairData& pair, const BodyData& a, float nearby, int (&ma
   }
 }
 
+/// What of a pair's last step its new points are made from.
+struct Before {
+  Vec3 normal, t1, t2;
+  PointMemory points[kMaxManifoldPoints];
+};
+
 /// Carries the memory of one old point over to the new manifold's basis.
-PointMemory carryOver(const PointMemory& old, const PairData& pair, const PairData& before) {
+PointMemory carryOver(const PointMemory& old, const PairData& pair, const Before& before) {
   PointMemory point = old;
   const Vec3 tangential = before.t1 * old.lambda.y + before.t2 * old.lambda.z;
   point.lambda = {old.lambda.x, dot(tangential, pair.t1), dot(tangential, pair.t2)};
   return point;
 }
 
-void rememberPoints(PairData& pair, const BodyData& a, const BodyData& b, Vec3 fromAToB) {
-  const PairData before = pair;
+void turnBasis(PairData& pair) {
   const rows::V3<float> n{pair.manifold.normal.x, pair.manifold.normal.y, pair.manifold.normal.z};
   rows::V3<float> t1, t2;
   rows::orthonormalBasis(n, t1, t2);
   pair.normal = pair.manifold.normal;
   pair.t1 = {t1.x, t1.y, t1.z};
   pair.t2 = {t2.x, t2.y, t2.z};
-  const float size = std::min(a.minExtent > 0 ? a.minExtent : b.minExtent, b.minExtent > 0 ? b.minExtent : a.minExtent);
+}
+
+float smallerSize(const BodyData& a, const BodyData& b) {
+  return std::min(a.minExtent > 0 ? a.minExtent : b.minExtent, b.minExtent > 0 ? b.minExtent : a.minExtent);
+}
+
+void rememberPoints(PairData& pair, const BodyData& a, const BodyData& b, Vec3 fromAToB) {
+  Before before;
+  before.normal = pair.normal, before.t1 = pair.t1, before.t2 = pair.t2;
+  for (int i = 0; i < pair.pointCount; ++i) before.points[i] = pair.points[i];
+  const float size = smallerSize(a, b), drift = kAnchorDrift * size;
   int match[kMaxManifoldPoints];
   matchPoints(pair, a, kNearPoint * size, match);
+  turnBasis(pair);
   const bool sameNormal = dot(before.normal, pair.normal) > kSameNormal;
   for (int i = 0; i < pair.manifold.count; ++i) {
     const ManifoldPoint& now = pair.manifold.points[i];
     const Vec3 onA = toBody(a, now.position), onB = toBody(b, now.position - fromAToB);
-    PointMemory point;
-    point.sticks = 1;
-    if (match[i] >= 0 && sameNormal) point = carryOver(before.points[match[i]], pair, before);
-    const float drift = kAnchorDrift * size;
+    const bool known = match[i] >= 0 && sameNormal;
+    PointMemory& point = pair.points[i];
+    point = known ? carryOver(before.points[match[i]], pair, before) : PointMemory{};
     const Vec3 driftA = onA - point.anchorA, driftB = onB - point.anchorB;
     const bool rolled = dot(driftA, driftA) > drift * drift || dot(driftB, driftB) > drift * drift;
-    if (match[i] < 0 || !sameNormal || !point.sticks || rolled) point.anchorA = onA, point.anchorB = onB;
+    if (!known || !point.sticks || rolled) point.anchorA = onA, point.anchorB = onB;
+    if (!known) point.sticks = 1;
     point.feature = now.feature;
-    pair.points[i] = point;
   }
   pair.pointCount = pair.manifold.count;
 }

@@ -1,8 +1,64 @@
 // Colours: bodies of one colour share no row, so the block sweep may move them at once. Krylov needs none.
+//
+// Greedy in the order of the islands and, within one, of the bodies: each takes the lowest colour that no neighbour
+// has. Static and kinematic bodies do not move in the solve and so count for nothing.
+#include <algorithm>
+
 #include "step/step_data.h"
 
 namespace avbd {
 
-void colorBlocks(WorldData& world, StepData&) { world.report.colors = 0; }
+namespace {
+
+void link(const WorldData& world, Coloring& c, const uint32_t* body, int count) {
+  const auto moves = [&](uint32_t slot) { return slot != kNone && world.bodies[slot].type == BodyType::Dynamic; };
+  for (int i = 0; i < count; ++i)
+    for (int j = i + 1; j < count; ++j)
+      if (moves(body[i]) && moves(body[j])) c.links.push_back({body[i], body[j]});
+}
+
+void findLinks(const WorldData& world, const StepData& step, Coloring& c) {
+  c.links.clear();
+  for (const uint32_t index : step.islandPairs) {
+    const uint32_t body[2] = {world.pairs[index].bodyA, world.pairs[index].bodyB};
+    link(world, c, body, 2);
+  }
+  for (const uint32_t slot : step.islandJoints)
+    link(world, c, world.joints[slot].body, world.joints[slot].type == JointType::TetVolume ? 4 : 2);
+}
+
+void listNeighbours(size_t slots, Coloring& c) {
+  c.first.assign(slots + 1, 0);
+  for (const auto& l : c.links) ++c.first[l[0]], ++c.first[l[1]];
+  uint32_t end = 0;
+  for (uint32_t& f : c.first) f = end += f;
+  c.neighbour.resize(end);
+  for (const auto& l : c.links) c.neighbour[--c.first[l[0]]] = l[1], c.neighbour[--c.first[l[1]]] = l[0];
+}
+
+}  // namespace
+
+void colorBlocks(WorldData& world, StepData& step) {
+  Coloring& c = step.coloring;
+  c.colors = 0;
+  world.report.colors = 0;
+  if (world.def.primalSolver != PrimalSolver::BlockSweep) return;
+  findLinks(world, step, c);
+  listNeighbours(world.bodies.size(), c);
+  c.ofSlot.assign(world.bodies.size(), kNone);
+  c.ofOrder.resize(step.order.size());
+  c.takenBy.clear();
+  for (uint32_t i = 0; i < step.order.size(); ++i) {
+    const uint32_t slot = step.order[i];
+    for (uint32_t n = c.first[slot]; n < c.first[slot + 1]; ++n)
+      if (c.ofSlot[c.neighbour[n]] != kNone) c.takenBy[c.ofSlot[c.neighbour[n]]] = i;
+    const uint32_t color = static_cast<uint32_t>(
+        std::find_if(c.takenBy.begin(), c.takenBy.end(), [i](uint32_t by) { return by != i; }) - c.takenBy.begin());
+    if (color == c.takenBy.size()) c.takenBy.push_back(kNone);
+    c.ofSlot[slot] = c.ofOrder[i] = color;
+  }
+  c.colors = static_cast<uint32_t>(c.takenBy.size());
+  world.report.colors = c.colors;
+}
 
 }  // namespace avbd

@@ -52,9 +52,10 @@ void write(float* row, Vec3 lin, Vec3 ang) {
   row[4] = ang.x, row[5] = ang.y, row[6] = ang.z;
 }
 
-void predictBody(const WorldData& world, StepData& step, uint32_t slot, size_t at) {
+void predictBody(const WorldData& world, StepData& step, uint32_t index, size_t at) {
+  const uint32_t slot = step.order[index];
   const BodyData& body = world.bodies[slot];
-  const FreeMotion free = freeMotion(body, world.def.gravity, step.h);
+  const FreeMotion& free = step.free[index] = freeMotion(body, world.def.gravity, step.h);
   write(step.target.data() + at, free.displacement, free.turn);
   const float weight = length(world.def.gravity) * rows::abs(body.gravityScale) * body.mass;
   if (length(step.carried[slot]) <= kLoaded * weight) {
@@ -70,9 +71,10 @@ void predictBody(const WorldData& world, StepData& step, uint32_t slot, size_t a
 
 void predict(WorldData& world, StepData& step) {
   sumCarried(world, step);
+  step.free.resize(step.order.size());
   for (const BatchRange& batch : step.batches)
     for (uint32_t i = 0; i < batch.bodies; ++i)
-      predictBody(world, step, step.order[batch.orderBegin + i], size_t(8) * (batch.rowBegin + i));
+      predictBody(world, step, batch.orderBegin + i, size_t(8) * (batch.rowBegin + i));
 }
 
 }  // namespace avbd

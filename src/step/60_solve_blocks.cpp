@@ -4,10 +4,17 @@
 namespace avbd {
 
 void solveBlocks(WorldData& world, StepData& step) {
+  const bool sweep = world.def.primalSolver == PrimalSolver::BlockSweep;
   for (size_t i = 0; i < step.batches.size(); ++i) {
-    Forest* forest = step.batches[i].forest != kNone ? &step.forests[step.batches[i].forest] : nullptr;
-    solveKrylov(step.view(i), *step.backend, step.solve, forest, step.krylov);
-    keepMomentum(world, step, step.batches[i]);
+    const BatchRange& batch = step.batches[i];
+    Forest* forest = batch.forest != kNone ? &step.forests[batch.forest] : nullptr;
+    if (sweep) {
+      const Colors colors{step.coloring.ofOrder.data() + batch.orderBegin, step.coloring.colors};
+      solveSweep(step.view(i), *step.backend, step.solve, colors, step.sweep);
+    } else {
+      solveKrylov(step.view(i), *step.backend, step.solve, forest, step.krylov);
+    }
+    keepMomentum(world, step, batch);
   }
 }
 

@@ -26,8 +26,7 @@ Vec3 bounded(Vec3 v, float limit) {
 }
 
 /// v = v_free + (dp - y_p) / h, and the angular momentum likewise.
-StepData::EndState endState(const BodyData& body, const StepData& step, Vec3 gravity, size_t at) {
-  const FreeMotion free = freeMotion(body, gravity, step.h);
+StepData::EndState endState(const BodyData& body, const StepData& step, const FreeMotion& free, size_t at) {
   const Vec3 dp = readLin(step.d, at), turn = readAng(step.d, at);
   StepData::EndState end;
   end.position = body.position + dp;
@@ -54,7 +53,7 @@ void updateVelocities(WorldData& world, StepData& step) {
       step.endOf[slot] = batch.orderBegin + i;
       step.rowOfEnd[batch.orderBegin + i] = batch.rowBegin + i;
       StepData::EndState& end = step.end[batch.orderBegin + i];
-      end = endState(world.bodies[slot], step, world.def.gravity, at);
+      end = endState(world.bodies[slot], step, step.free[batch.orderBegin + i], at);
       const bool finite = isFinite(end.position) && isFinite(end.linearVelocity) && isFinite(end.angularVelocity) &&
                           std::isfinite(end.rotation.w + end.rotation.x + end.rotation.y + end.rotation.z);
       if (!finite) fail(world, Stage::Velocities, slot);

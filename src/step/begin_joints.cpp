@@ -52,7 +52,7 @@ rows::FixedJoint<float> jointRows(const WorldData& world, const StepData& step, 
   rows.ball.rA = a.arm, rows.ball.rB = b.arm;
   rows.ball.bias = toRow(a.anchor - b.anchor) * (1 - step.alpha);
   rows.ball.lambda = {joint.lambda[0], joint.lambda[1], joint.lambda[2]};
-  rows.ball.tau = armBlend(step, a, b, length(rows.ball.lambda));
+  rows.ball.tau = world.def.jointArmBlend >= 0 ? world.def.jointArmBlend : armBlend(step, a, b, length(rows.ball.lambda));
   const float w = a.invMass + b.invMass + a.turning * dot(a.arm, a.arm) + b.turning * dot(b.arm, b.arm);
   rows.ball.k = kJointFactor / (w * step.h * step.h);
   if (joint.type != JointType::Fixed) return rows;

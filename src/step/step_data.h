@@ -1,11 +1,14 @@
 // What the stages of a step hand to each other.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/aligned.h"
 #include "solve/backend.h"
 #include "solve/krylov.h"
+#include "solve/sweep.h"
+#include "step/free_motion.h"
 #include "world/world_data.h"
 
 namespace avbd {
@@ -56,6 +59,16 @@ struct ForestScratch {
   std::vector<int32_t> nodeOf;   ///< by row
 };
 
+/// Colours of the dynamic bodies, and what finding them needs; empty unless the block sweep runs.
+struct Coloring {
+  uint32_t colors = 0;
+  std::vector<uint32_t> ofOrder;               ///< colour, by StepData::order
+  std::vector<uint32_t> ofSlot;                ///< the same by body slot
+  std::vector<std::array<uint32_t, 2>> links;  ///< body slots that share a row
+  std::vector<uint32_t> first, neighbour;      ///< by body slot: its neighbours start at neighbour[first[slot]]
+  std::vector<uint32_t> takenBy;               ///< by colour: the last body that found it at a neighbour
+};
+
 struct StepData {
   float h = 0;         ///< [s] of a substep
   float alpha = 0;     ///< share of a violation at the start of the step that a row keeps
@@ -87,7 +100,10 @@ struct StepData {
   std::vector<KinematicRow> kinematicRows;  ///< rows count over all batches
 
   std::vector<uint8_t> slidesOnly;    ///< by body slot: all its contacts have slid for some steps
+  std::vector<FreeMotion> free;       ///< by StepData::order
   std::vector<Vec3> carried;          ///< by body slot: force of contacts and joints in the last step [N]
+
+  Coloring coloring;  // 40_colors
 
   // Body rows.
   std::vector<IslandRange> ranges;
@@ -109,6 +125,7 @@ struct StepData {
   uint32_t forestCount = 0;
   ForestScratch planting;
   KrylovScratch krylov;
+  SweepPlan sweep;
 
   // 70_velocities: the state at the end of the step, by StepData::order; written back by 90_publish
   struct EndState {

@@ -78,7 +78,7 @@ uint32_t addBody(WorldData& data, const BodyDef& def, const BodyPlan& plan) {
 void removeBody(WorldData& data, uint32_t slot) {
   removeJointsOf(data, slot);
   endExclusionsOf(data, slot);
-  erasePairsOfBody(data, slot);
+  forgetPairsOfBody(data, slot);
   while (data.bodies[slot].firstShape != kNone) removeShape(data, data.bodies[slot].firstShape);
   data.bodies[slot] = {};
   data.bodyIds.destroy(data.bodyIds.id(slot));
@@ -103,7 +103,7 @@ void moveBody(WorldData& data, uint32_t slot, const Pose& pose) {
   BodyData& body = data.bodies[slot];
   body.rotation = pose.rotation;
   body.position = pose.position + rotate(pose.rotation, toDouble(body.center));
-  erasePairsOfBody(data, slot);
+  forgetPairsOfBody(data, slot);
   for (uint32_t s = body.firstShape; s != kNone; s = data.shapes[s].next) {
     data.tree.move(data.shapes[s].proxy, fatBounds(data, data.shapes[s]));
     markUnpaired(data, s);

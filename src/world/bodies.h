@@ -24,7 +24,7 @@ Vec3 spinFromImpulse(const BodyData& body, Vec3 impulse);
 Vec3d angularMomentumOf(const BodyData& body);
 
 uint32_t addShape(WorldData& data, uint32_t body, const ShapeDef& shape);  ///< leaves the mass alone; returns the slot
-/// Leaves mass and pairs alone: the caller has erased the pairs.
+/// Leaves mass and pairs alone: the caller has the pairs forgotten.
 void removeShape(WorldData& data, uint32_t slot);
 /// Shapes of a body as definitions, oldest first.
 std::vector<ShapeDef> shapeDefs(const WorldData& data, uint32_t body);

@@ -277,6 +277,9 @@ TEST_F(CheckJoint, TetVolume) {
   refuse(Tet{.bodies = {a, b, c, d}, .restVolume = kNan}, "TetVolume", "restVolume", "nan", "must be finite");
   refuse(Tet{.bodies = {a, b, c, d}, .restVolume = 1e28f}, "TetVolume", "restVolume", "1e+28", "between");
   refuse(Tet{.bodies = {a, b, c, d}, .stiffness = -1}, "TetVolume", "stiffness", "-1", ">= 0");
+  const BodyId x = make({.position = {100, 0, 0}, .shape = Box{}}), y = make({.position = {0, 100, 0}, .shape = Box{}});
+  const BodyId flat = make({.position = {30, 30, 1e-8}, .shape = Box{}});
+  refuse(Tet{.bodies = {a, x, y, flat}}, "TetVolume", "restVolume", "0", "lie in one plane");
   const BodyId s1 = make({.type = BodyType::Static}), s2 = make({.type = BodyType::Static});
   refuse(Tet{.bodies = {ground, lift, s1, s2}}, "TetVolume", "bodies[0]", "5 (generation 1)", "must be dynamic");
 }

@@ -119,7 +119,6 @@ TEST(StateHash, SeesEveryFieldThatAStepChanges) {
       [](WorldData& d) { d.pairs[0].points[0].feature = 1; },
       [](WorldData& d) { d.pairs[0].points[0].rebound = 1; },
       [](WorldData& d) { d.pairs[0].points[0].sticks = 1; },
-      [](WorldData& d) { d.pairs[0].points[0].age = 1; },
       [](WorldData& d) { d.pairs.clear(); },
       [](WorldData& d) { d.bodyIds.create(), d.bodies.push_back({}); },
   };

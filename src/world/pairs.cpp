@@ -27,33 +27,63 @@ bool mayTouch(const WorldData& data, uint32_t shapeA, uint32_t shapeB) {
   return anyDynamic && filtersMeet(a.filter, b.filter) && !isExcluded(data, a.body, b.body);
 }
 
-void erasePairsOfBody(WorldData& data, uint32_t body) {
-  std::erase_if(data.pairs, [=](const PairData& pair) { return pair.bodyA == body || pair.bodyB == body; });
+namespace {
+
+// The lists of slots are ascending and hold each once, in whatever order the user goes.
+void insertSlot(std::vector<uint32_t>& slots, uint32_t slot) {
+  const auto at = std::lower_bound(slots.begin(), slots.end(), slot);
+  if (at == slots.end() || *at != slot) slots.insert(at, slot);
 }
 
-void erasePairsOfShape(WorldData& data, uint32_t shape) {
-  std::erase_if(data.pairs, [=](const PairData& pair) { return pair.shapeA == shape || pair.shapeB == shape; });
+void eraseSlot(std::vector<uint32_t>& slots, uint32_t slot) {
+  const auto at = std::lower_bound(slots.begin(), slots.end(), slot);
+  if (at != slots.end() && *at == slot) slots.erase(at);
+}
+
+}  // namespace
+
+void forgetPairsOfShape(WorldData& data, uint32_t shape) {
+  if (!data.pairs.empty()) insertSlot(data.forgotten, shape);
+}
+
+void forgetPairsOfBody(WorldData& data, uint32_t body) {
+  for (uint32_t s = data.bodies[body].firstShape; s != kNone; s = data.shapes[s].next) forgetPairsOfShape(data, s);
+}
+
+std::vector<bool> forgottenShapes(const WorldData& data) {
+  std::vector<bool> isForgotten(data.shapes.size());
+  for (const uint32_t slot : data.forgotten) isForgotten[slot] = true;
+  return isForgotten;
+}
+
+void dropForgottenPairs(WorldData& data) {
+  if (data.forgotten.empty()) return;
+  const std::vector<bool> isForgotten = forgottenShapes(data);
+  std::erase_if(data.pairs, [&](const PairData& pair) { return isForgotten[pair.shapeA] || isForgotten[pair.shapeB]; });
+  data.forgotten.clear();
 }
 
 void erasePairsBetween(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
-  std::erase_if(data.pairs, [=](const PairData& pair) {
-    return (pair.bodyA == bodyA && pair.bodyB == bodyB) || (pair.bodyA == bodyB && pair.bodyB == bodyA);
-  });
+  if (data.pairs.empty()) return;
+  for (uint32_t a = data.bodies[bodyA].firstShape; a != kNone; a = data.shapes[a].next) {
+    for (uint32_t b = data.bodies[bodyB].firstShape; b != kNone; b = data.shapes[b].next) {
+      PairData wanted;
+      wanted.shapeA = std::min(a, b);
+      wanted.shapeB = std::max(a, b);
+      const auto at = std::lower_bound(data.pairs.begin(), data.pairs.end(), wanted,
+                                       [](const PairData& x, const PairData& y) { return x.key() < y.key(); });
+      if (at != data.pairs.end() && at->key() == wanted.key()) data.pairs.erase(at);
+    }
+  }
 }
 
-void markUnpaired(WorldData& data, uint32_t shape) {
-  const auto at = std::lower_bound(data.unpaired.begin(), data.unpaired.end(), shape);
-  if (at == data.unpaired.end() || *at != shape) data.unpaired.insert(at, shape);
-}
+void markUnpaired(WorldData& data, uint32_t shape) { insertSlot(data.unpaired, shape); }
 
 void markBodyUnpaired(WorldData& data, uint32_t body) {
   for (uint32_t s = data.bodies[body].firstShape; s != kNone; s = data.shapes[s].next) markUnpaired(data, s);
 }
 
-void unmarkUnpaired(WorldData& data, uint32_t shape) {
-  const auto at = std::lower_bound(data.unpaired.begin(), data.unpaired.end(), shape);
-  if (at != data.unpaired.end() && *at == shape) data.unpaired.erase(at);
-}
+void unmarkUnpaired(WorldData& data, uint32_t shape) { eraseSlot(data.unpaired, shape); }
 
 void exclude(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
   const uint64_t pair = bodyPair(bodyA, bodyB);

@@ -10,8 +10,14 @@ bool filtersMeet(const Filter& a, const Filter& b);
 /// Whether a pair of these two shapes may exist: different bodies, one of them dynamic, filters, exclusions.
 bool mayTouch(const WorldData& data, uint32_t shapeA, uint32_t shapeB);
 
-void erasePairsOfBody(WorldData& data, uint32_t body);
-void erasePairsOfShape(WorldData& data, uint32_t shape);
+/// The pairs become void at once and leave the list with all others at the next step: closing the gaps one by one would
+/// move the whole list for each.
+void forgetPairsOfShape(WorldData& data, uint32_t shape);
+void forgetPairsOfBody(WorldData& data, uint32_t body);
+void dropForgottenPairs(WorldData& data);
+/// Calls f(pair) for all pairs that are not void, in order.
+template <class F>
+void forEachPair(const WorldData& data, F&& f);
 void erasePairsBetween(WorldData& data, uint32_t bodyA, uint32_t bodyB);
 
 /// The next step looks for all pairs of the shape.
@@ -24,5 +30,16 @@ void exclude(WorldData& data, uint32_t bodyA, uint32_t bodyB);
 void endExclusion(WorldData& data, uint32_t bodyA, uint32_t bodyB);
 void endExclusionsOf(WorldData& data, uint32_t body);
 bool isExcluded(const WorldData& data, uint32_t bodyA, uint32_t bodyB);
+
+/// By shape slot: whether its pairs are void.
+std::vector<bool> forgottenShapes(const WorldData& data);
+
+template <class F>
+void forEachPair(const WorldData& data, F&& f) {
+  const std::vector<bool> isForgotten = forgottenShapes(data);
+  for (const PairData& pair : data.pairs) {
+    if (!isForgotten[pair.shapeA] && !isForgotten[pair.shapeB]) f(pair);
+  }
+}
 
 }  // namespace avbd

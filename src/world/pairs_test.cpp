@@ -77,7 +77,7 @@ TEST_F(Pairs, MayTouch) {
   EXPECT_TRUE(mayTouch(data, 0, 3));
 }
 
-TEST_F(Pairs, EraseKeepsTheOrderOfTheRest) {
+TEST_F(Pairs, ForgottenPairsAreVoidAtOnceAndDroppedInOrder) {
   const auto fill = [&] {
     data.pairs.clear();
     pairUp(0, 2);
@@ -87,10 +87,18 @@ TEST_F(Pairs, EraseKeepsTheOrderOfTheRest) {
     pairUp(2, 4);
   };
   fill();
-  erasePairsOfBody(data, a);
+  forgetPairsOfBody(data, a);
+  List seen;
+  forEachPair(data, [&](const PairData& pair) { seen.push_back({pair.shapeA, pair.shapeB}); });
+  EXPECT_EQ(seen, (List{{2, 3}, {2, 4}}));
+  dropForgottenPairs(data);
   EXPECT_EQ(pairs(), (List{{2, 3}, {2, 4}}));
+  EXPECT_TRUE(data.forgotten.empty());
   fill();
-  erasePairsOfShape(data, 4);
+  forgetPairsOfShape(data, 4);
+  forgetPairsOfShape(data, 4);
+  EXPECT_EQ(data.forgotten, std::vector<uint32_t>{4});
+  dropForgottenPairs(data);
   EXPECT_EQ(pairs(), (List{{0, 2}, {1, 3}, {2, 3}}));
   fill();
   erasePairsBetween(data, c, a);

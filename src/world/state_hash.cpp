@@ -2,6 +2,7 @@
 #include "world/state_hash.h"
 
 #include "base/hash.h"
+#include "world/pairs.h"
 
 namespace avbd {
 namespace {
@@ -22,7 +23,6 @@ void add(Hash64& hash, const PointMemory& point) {
   hash.value(point.anchorB);
   hash.value(point.rebound);
   hash.value(point.sticks);
-  hash.value(point.age);
 }
 
 void add(Hash64& hash, const PairData& pair) {
@@ -57,8 +57,7 @@ uint64_t stateHash(const WorldData& data) {
     hash.value(slot);
     hash.value(data.joints[slot].lambda);
   });
-  hash.value(static_cast<uint64_t>(data.pairs.size()));
-  for (const PairData& pair : data.pairs) add(hash, pair);
+  forEachPair(data, [&](const PairData& pair) { add(hash, pair); });
   return hash.digest();
 }
 

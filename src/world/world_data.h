@@ -71,7 +71,6 @@ struct PointMemory {
   Vec3 anchorA, anchorB;  ///< where it stuck: relative to the centre of mass, body axes
   float rebound = 0;      ///< [m/s] at which it left the other surface in the last step; 0: it did not
   uint8_t sticks = 0;     ///< it did not slip in the last step
-  uint8_t age = 0;        ///< steps since it was found, saturating
 };
 
 /// Two shapes whose bounds overlap, with their contact points.
@@ -101,6 +100,8 @@ struct WorldData {
   DynamicTree tree;                     ///< fat bounds of all shapes; user data is the shape's slot
   /// Shapes whose pairs have to be found anew (made, moved by the user, refiltered): slots, ascending, each once.
   std::vector<uint32_t> unpaired;
+  /// Shapes whose pairs above are void (moved, refiltered, destroyed): World::step drops them first. Slots likewise.
+  std::vector<uint32_t> forgotten;
   double time = 0;
   StepReport report;
 };
