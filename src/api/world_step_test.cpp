@@ -103,7 +103,8 @@ TEST_F(Resting, MassChangesInPlaceWithoutAJump) {
   run(world, 60);
   EXPECT_NEAR(height(), before, 0.005);
   float force = 0;
-  for (const ContactPoint& point : world.contacts()[0].points) force += point.normalForce;
+  const Contact contact = world.contacts().at(0);
+  for (const ContactPoint& point : contact.points) force += point.normalForce;
   EXPECT_NEAR(force, 3 * 9.81, 0.15);
 }
 

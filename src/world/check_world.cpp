@@ -29,6 +29,9 @@ void checkWorld(const WorldDef& def) {
   check(path / "restitutionThreshold", def.restitutionThreshold, notNegative(kMaxSpeed * unit));
   check(path / "maxDepenetrationSpeed", def.maxDepenetrationSpeed, notNegative(kMaxSpeed * unit));
   check(path / "krylovIterations", def.krylovIterations, Range{0, 1000});
+  if (!(def.jointArmBlend == -1 || (def.jointArmBlend >= 0 && def.jointArmBlend <= 1))) {
+    (path / "jointArmBlend").refuse(toText(def.jointArmBlend), "must be -1 or within 0 .. 1");
+  }
   if (def.primalSolver != PrimalSolver::Krylov && def.primalSolver != PrimalSolver::BlockSweep) {
     (path / "primalSolver").refuse(toText(static_cast<int>(def.primalSolver)), "must be Krylov or BlockSweep");
   }

@@ -133,6 +133,7 @@ TEST(StateHash, SeesEveryFieldThatAStepChanges) {
 
 TEST(StateHash, DoesNotSeeWhatIsUnused) {
   WorldData data;
+  make(data, {.shape = Box{}});
   data.pairs.resize(1);
   const uint64_t before = stateHash(data);
   data.pairs[0].points[3].feature = 9;
