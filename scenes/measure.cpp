@@ -19,7 +19,6 @@ void addJoint(Layout& layout, const Joint& joint, const std::unordered_map<uint3
   const auto slot = [&](BodyId id) { return id ? slots.at(id.index) : kWorldBody; };
   const uint32_t a = slot(joint.bodyA), b = slot(joint.bodyB);
   layout.anchors.push_back({a, b, joint.frameA.position, joint.frameB.position});
-  if (!joint.collideConnected && a != kWorldBody && b != kWorldBody) layout.separated.insert(pairKey(a, b));
 }
 
 Vec3d crossProduct(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
@@ -59,6 +58,7 @@ Layout layoutOf(const World& world) {
     for (const ShapeId s : world.shapes(id))
       layout.pieces.push_back({slot, world.geometry(s), world.localPose(s), world.filter(s)});
   }
+  for (const auto& [a, b] : world.excludedPairs()) layout.separated.insert(pairKey(slots.at(a.index), slots.at(b.index)));
   for (const JointId id : world.joints()) {
     if (world.type(id) == JointType::Ball) addJoint(layout, world.ballJoint(id), slots);
     if (world.type(id) == JointType::Fixed) addJoint(layout, world.fixedJoint(id), slots);

@@ -7,6 +7,7 @@
 #include <avbd/joint.h>
 #include <avbd/profile.h>
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -28,7 +29,8 @@ struct WorldDef {
   /// Size of a usual thing, in the unit of the positions: 1 where that is the metre. All tolerances scale with it.
   float lengthUnit = 1;
   float restitutionThreshold = 1;  ///< [m/s] approach speed below which nothing rebounds
-  float maxDepenetrationSpeed = 3; ///< [m/s] at most, for bodies that overlap at the start of a step
+  /// [m/s] at which bodies that overlap at the start of a step, or are not where their joint wants them, are moved at most.
+  float maxDepenetrationSpeed = 3;
   PrimalSolver primalSolver = PrimalSolver::Krylov;
   int krylovIterations = 0;  ///< conjugate-gradient steps per outer iteration; 0 takes the default, <= 1000
   /// Where joints take their arms: 0 at the step's start (symplectic; unstable under heavy loads), 1 at its end (implicit;
@@ -60,6 +62,9 @@ class World {
   bool isAlive(JointId id) const;
   /// Shapes of these two bodies never touch from now on.
   void excludeCollision(BodyId a, BodyId b);
+  /// Bodies that never touch each other: excluded by the call above or by a joint between them. Each pair once, the lower
+  /// slot first, in ascending order.
+  std::vector<std::array<BodyId, 2>> excludedPairs() const;
 
   /// Advances time by dt [s], 0 < dt <= 1. Throws Error for a bad dt, NonFiniteError if a body's state becomes NaN or
   /// infinite.

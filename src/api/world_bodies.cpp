@@ -42,6 +42,19 @@ void World::excludeCollision(BodyId a, BodyId b) {
   exclude(impl_->data, slotA, slotB);
 }
 
+std::vector<std::array<BodyId, 2>> World::excludedPairs() const {
+  const WorldData& data = impl_->data;
+  std::vector<std::array<BodyId, 2>> pairs;
+  uint64_t last = ~uint64_t{0};
+  for (const uint64_t key : data.excludedPairs) {
+    if (key != last) {
+      pairs.push_back({data.bodyIds.id(static_cast<uint32_t>(key >> 32)), data.bodyIds.id(static_cast<uint32_t>(key))});
+    }
+    last = key;
+  }
+  return pairs;
+}
+
 BodyType World::type(BodyId id) const { return bodyOf(impl_->data, id, "World::type").type; }
 Pose World::pose(BodyId id) const { return bodyPose(bodyOf(impl_->data, id, "World::pose")); }
 

@@ -89,6 +89,7 @@ struct SolveSettings {
   int iterations = 4;
   int krylovIterations = 8;
   float contactLeak = 1;    ///< share of a contact multiplier that survives an iteration
+  float jointLeak = 1;       ///< the same of joints outside trees: loops that cannot close must not wind up
   float floorFactor = 10;   ///< c: stiffness floor is c / (w h^2)
 };
 

@@ -173,9 +173,9 @@ void stampRows(const BatchView& v, const SolveSettings& s, bool dual) {
   Tile<PairOp>* op = v.op;
   stampPairs<Contact, false>(v, v.contacts, op, s.contactLeak, dual);
   op += v.contacts.tiles;
-  stampPairs<BallJoint, true>(v, v.balls, op, 1, dual);
+  stampPairs<BallJoint, true>(v, v.balls, op, s.jointLeak, dual);
   op += v.balls.tiles;
-  stampPairs<FixedJoint, true>(v, v.fixed, op, 1, dual);
+  stampPairs<FixedJoint, true>(v, v.fixed, op, s.jointLeak, dual);
   stampTets(v, dual);
 }
 

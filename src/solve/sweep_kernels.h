@@ -51,8 +51,8 @@ void stageTets(const BatchView& v, const SideView& sides, bool dual) {
 
 void stageRecords(const BatchView& v, const SweepView& w, const SolveSettings& s, bool dual) {
   stagePairs(v, v.contacts, w.sides[kContactSides], s.contactLeak, dual);
-  stagePairs(v, v.balls, w.sides[kBallSides], 1, dual);
-  stagePairs(v, v.fixed, w.sides[kFixedSides], 1, dual);
+  stagePairs(v, v.balls, w.sides[kBallSides], s.jointLeak, dual);
+  stagePairs(v, v.fixed, w.sides[kFixedSides], s.jointLeak, dual);
   stageTets(v, w.sides[kTetSides], dual);
 }
 

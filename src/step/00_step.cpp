@@ -24,21 +24,35 @@ void run(Stage stage, void (*f)(WorldData&, StepData&), WorldData& world, StepDa
 Stepper::Stepper() : data_(std::make_unique<StepData>()) {}
 Stepper::~Stepper() = default;
 
+namespace {
+
+void substep(WorldData& world, StepData& step) {
+  run(Stage::Pairs, findPairs, world, step);
+  run(Stage::Contacts, findContacts, world, step);
+  run(Stage::Islands, findIslands, world, step);
+  run(Stage::Colors, colorBlocks, world, step);
+  run(Stage::BeginRows, beginRows, world, step);
+  run(Stage::Predict, predict, world, step);
+  run(Stage::SolveBlocks, solveBlocks, world, step);
+  run(Stage::UpdateRows, updateRows, world, step);
+  run(Stage::Velocities, updateVelocities, world, step);
+  run(Stage::Publish, publish, world, step);
+}
+
+}  // namespace
+
 void Stepper::step(WorldData& world, float dt) {
   StepData& step = *data_;
   world.report.seconds = {};
+  if (world.def.substeps > 1) step.bodiesBefore = world.bodies;
   chooseSettings(world, step, dt / static_cast<float>(world.def.substeps));
   for (int i = 0; i < world.def.substeps; ++i) {
-    run(Stage::Pairs, findPairs, world, step);
-    run(Stage::Contacts, findContacts, world, step);
-    run(Stage::Islands, findIslands, world, step);
-    run(Stage::Colors, colorBlocks, world, step);
-    run(Stage::BeginRows, beginRows, world, step);
-    run(Stage::Predict, predict, world, step);
-    run(Stage::SolveBlocks, solveBlocks, world, step);
-    run(Stage::UpdateRows, updateRows, world, step);
-    run(Stage::Velocities, updateVelocities, world, step);
-    run(Stage::Publish, publish, world, step);
+    try {
+      substep(world, step);
+    } catch (const NonFiniteError&) {
+      if (i > 0) world.bodies = step.bodiesBefore;
+      throw;
+    }
   }
   world.bodyIds.forEach([&](uint32_t slot) { world.bodies[slot].force = world.bodies[slot].torque = {}; });
   world.time += dt;

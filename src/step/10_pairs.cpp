@@ -2,27 +2,14 @@
 #include <algorithm>
 
 #include "step/step_data.h"
+#include "world/limits.h"
+#include "world/pairs.h"
 
 namespace avbd {
 
 namespace {
 
-constexpr float kFatMargin = 0.05f;  ///< of the length unit: how far a resting shape may stray before it is looked at
-
-uint64_t bodyKey(uint32_t a, uint32_t b) { return a < b ? uint64_t(a) << 32 | b : uint64_t(b) << 32 | a; }
-
-bool filtersAllow(const Filter& a, const Filter& b) {
-  if (a.group != 0 && a.group == b.group) return a.group > 0;
-  const bool ab = (a.category & b.mask) != 0, ba = (b.category & a.mask) != 0;
-  return a.anyMask && b.anyMask ? ab || ba : ab && ba;
-}
-
-bool mayTouch(const WorldData& world, const ShapeData& a, const ShapeData& b) {
-  if (a.body == b.body) return false;
-  if (world.bodies[a.body].type != BodyType::Dynamic && world.bodies[b.body].type != BodyType::Dynamic) return false;
-  if (!filtersAllow(a.filter, b.filter)) return false;
-  return !std::binary_search(world.excludedPairs.begin(), world.excludedPairs.end(), bodyKey(a.body, b.body));
-}
+uint64_t pairKey(uint32_t a, uint32_t b) { return a < b ? uint64_t(a) << 32 | b : uint64_t(b) << 32 | a; }
 
 Vec3 lengthen(Vec3 bound, Vec3 motion, bool upper) {
   const auto grow = [upper](float at, float by) { return (upper ? by > 0 : by < 0) ? at + by : at; };
@@ -66,10 +53,8 @@ void refitMoved(WorldData& world, StepData& step) {
 void findNewKeys(const WorldData& world, StepData& step) {
   step.newKeys.clear();
   for (const uint32_t slot : step.moved) {
-    const ShapeData& shape = world.shapes[slot];
-    world.tree.query(world.tree.box(shape.proxy), [&](uint32_t other) {
-      if (!mayTouch(world, shape, world.shapes[other])) return;
-      step.newKeys.push_back(bodyKey(slot, other));
+    world.tree.query(world.tree.box(world.shapes[slot].proxy), [&](uint32_t other) {
+      if (mayTouch(world, slot, other)) step.newKeys.push_back(pairKey(slot, other));
     });
   }
   std::sort(step.newKeys.begin(), step.newKeys.end());

@@ -68,6 +68,7 @@ void listBodies(const WorldData& world, StepData& step) {
     if (step.islandOf[slot] == kNone) return;
     Island& island = step.islands[step.islandOf[slot]];
     step.order[island.bodyBegin + island.bodyCount++] = slot;
+    island.mass += world.bodies[slot].mass;
   });
 }
 

@@ -46,18 +46,28 @@ float armBlend(const StepData& step, const Side& a, const Side& b, float force) 
   return 0.5f * std::clamp((chi - 1) / 3, 0.0f, 1.0f);
 }
 
+/// The part of a violation that this step corrects; no faster than allowed, so that parts far from where their joint wants
+/// them are drawn together and not shot.
+rows::V3<float> corrected(const StepData& step, const rows::V3<float>& violation, float speed) {
+  const rows::V3<float> part = violation * (1 - step.alpha);
+  const float size = length(part), most = speed * step.h;
+  return size > most ? part * (most / size) : part;
+}
+
 rows::FixedJoint<float> jointRows(const WorldData& world, const StepData& step, const JointData& joint) {
   const Side a = sideOf(world, joint, 0), b = sideOf(world, joint, 1);
   rows::FixedJoint<float> rows{};
   rows.ball.rA = a.arm, rows.ball.rB = b.arm;
-  rows.ball.bias = toRow(a.anchor - b.anchor) * (1 - step.alpha);
+  const float speed = world.def.maxDepenetrationSpeed;
+  rows.ball.bias = corrected(step, toRow(a.anchor - b.anchor), speed);
   rows.ball.lambda = {joint.lambda[0], joint.lambda[1], joint.lambda[2]};
   rows.ball.tau = world.def.jointArmBlend >= 0 ? world.def.jointArmBlend : armBlend(step, a, b, length(rows.ball.lambda));
   const float w = a.invMass + b.invMass + a.turning * dot(a.arm, a.arm) + b.turning * dot(b.arm, b.arm);
   rows.ball.k = kJointFactor / (w * step.h * step.h);
   if (joint.type != JointType::Fixed) return rows;
   rows.q0 = a.axes * conjugate(b.axes);
-  rows.held = logQuat(rows.q0) * step.alpha;
+  const rows::V3<float> turned = logQuat(rows.q0);
+  rows.held = turned - corrected(step, turned, speed / world.def.lengthUnit);
   rows.lambda = {joint.lambda[3], joint.lambda[4], joint.lambda[5]};
   const rows::Sym3<float> turning = a.invInertia + b.invInertia;
   rows.kAngular = kJointFactor * 3 / ((turning.xx + turning.yy + turning.zz) * step.h * step.h);

@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kCorrection = 0.05f;  ///< 1 - alpha: share of a violation corrected in a reference step
 constexpr float kLeak = 0.01f;        ///< share of a contact multiplier that each reference iteration forgets
+constexpr float kJointLeak = 0.001f;   ///< the same of joints that no tree holds
 constexpr float kSlop = 0.001f;       ///< of the length unit
 constexpr float kLoadDepth = 0.005f;  ///< of the length unit: without gravity
 constexpr int kKrylovIterations = 8;
@@ -28,6 +29,7 @@ void chooseSettings(const WorldData& world, StepData& step, float h) {
   step.solve.krylovIterations = def.krylovIterations > 0 ? def.krylovIterations : kKrylovIterations;
   step.solve.contactLeak =
       1 - std::min(0.5f, kLeak * static_cast<float>(kReferenceIterations) / static_cast<float>(def.iterations));
+  step.solve.jointLeak = 1 - kJointLeak * static_cast<float>(kReferenceIterations) / static_cast<float>(def.iterations);
   const int width = def.simdWidth > 0 ? def.simdWidth : widestLane();
   step.backend = &backend(width);
 }

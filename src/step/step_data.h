@@ -7,8 +7,8 @@
 #include "base/aligned.h"
 #include "solve/backend.h"
 #include "solve/krylov.h"
-#include "solve/sweep.h"
 #include "step/free_motion.h"
+#include "solve/sweep.h"
 #include "world/world_data.h"
 
 namespace avbd {
@@ -18,6 +18,7 @@ struct Island {
   uint32_t bodyBegin = 0, bodyCount = 0;    ///< in StepData::order
   uint32_t pairBegin = 0, pairCount = 0;    ///< in StepData::islandPairs
   uint32_t jointBegin = 0, jointCount = 0;  ///< in StepData::islandJoints
+  float mass = 0;  ///< [kg]
   bool floating = true;
 };
 
@@ -76,6 +77,8 @@ struct StepData {
   float loadDepth = 0; ///< [m] at which a loaded row holds its load
   SolveSettings solve;
   const Backend* backend = nullptr;
+
+  std::vector<BodyData> bodiesBefore;  ///< the whole step, where substeps may fail
 
   // 10_pairs
   std::vector<uint32_t> moved;      ///< shapes that left their fat bounds

@@ -28,6 +28,7 @@ struct Contact {
   V3<R> n, t1, t2;   ///< n from A to B
   V3<R> armA, armB;  ///< centre of mass to reference point, at the start of the step
   R loadStiffness;   ///< [1/m]: 1 / depth
+  R stiffest;        ///< [N/m] bound of the load's part: what it takes to move the whole island
   ContactPointRows<R> point[4];
 
   template <class Sink>
@@ -43,7 +44,7 @@ struct Contact {
     const R inf = splat<R>(kInfinity);
     const V3<R> u = motion.lin + cross(motion.ang, p.arm);
     const R one = splat<R>(1);
-    const R load = p.lambdaN * loadStiffness;
+    const R load = min(stiffest, p.lambdaN * loadStiffness);
     const R kN = select(p.floorN > zero<R>(), max(p.floorN, load), zero<R>());
     const R kT = select(p.floorT > zero<R>(), max(p.floorT, load), zero<R>());
     const R normal = sink.emit(PairRow<R>{p.biasN + dot(n, u), n, cross(p.arm, n), kN, one, zero<R>(), inf}, p.lambdaN);

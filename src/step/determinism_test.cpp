@@ -1,0 +1,257 @@
+// Same bits: at every lane width, in every run, whatever else is in the world, and at every scale of two.
+#include <avbd/avbd.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "solve/backend.h"
+
+namespace avbd {
+namespace {
+
+constexpr float kDt = 1.0f / 60;
+
+BodyId addGround(World& world) { return world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}}); }
+Geometry shapeOf(int i) {
+  if (i % 3 == 0) return Box{0.3f, 0.2f, 0.25f};
+  if (i % 3 == 1) return Sphere{0.25f};
+  return Capsule{0.2f, 0.2f};
+}
+
+// ---- Scenes, each at a place of its own ------------------------------------------------------------------------
+
+using Scene = std::function<std::vector<BodyId>(World&, BodyId, Vec3d)>;
+
+std::vector<BodyId> addPile(World& world, BodyId, Vec3d at) {
+  std::vector<BodyId> ids;
+  for (int i = 0; i < 24; ++i)
+    ids.push_back(world.create(BodyDef{.position = at + Vec3d{0.31 * (i % 3), 0.4 + 0.45 * (i / 3), 0.29 * (i % 2)},
+                                       .rotation = {0.8f, 0.6f * (i % 2), 0, 0.6f * ((i + 1) % 2)},
+                                       .shape = shapeOf(i)}));
+  return ids;
+}
+
+std::vector<BodyId> addChain(World& world, BodyId ground, Vec3d at) {
+  std::vector<BodyId> ids;
+  for (int i = 0; i < 10; ++i) {
+    ids.push_back(world.create(
+        BodyDef{.position = at + Vec3d{0.5 + i, 4, 0}, .shape = Capsule{0.1f, 0.4f}, .mass = i == 9 ? 200.0f : 1.0f}));
+    const Pose before = i ? Pose{{0.5, 0, 0}, {}} : Pose{at + Vec3d{0, 4, 0}, {}};
+    const BodyId other = i ? ids[ids.size() - 2] : ground;
+    world.create(BallJoint{.bodyA = other, .bodyB = ids.back(), .frameA = before, .frameB = {{-0.5, 0, 0}, {}}});
+  }
+  return ids;
+}
+
+/// Tied bodies with a loop, on the ground: tree, loop-closing joint and contacts in one island.
+std::vector<BodyId> addFrame(World& world, BodyId, Vec3d at) {
+  std::vector<BodyId> ids;
+  const Vec3d corner[4] = {{0, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
+  for (const Vec3d& c : corner)
+    ids.push_back(world.create(BodyDef{.position = at + c, .shape = Box{0.3f, 0.3f, 0.3f}, .density = 300}));
+  for (size_t i = 0; i < 4; ++i) {
+    const size_t next = (i + 1) % 4;
+    const Vec3d half = (corner[next] - corner[i]) * 0.5;
+    if (i % 2)
+      world.create(FixedJoint{.bodyA = ids[i], .bodyB = ids[next], .frameA = {half, {}}, .frameB = {half * -1, {}}});
+    else
+      world.create(BallJoint{.bodyA = ids[i], .bodyB = ids[next], .frameA = {half, {}}, .frameB = {half * -1, {}}});
+  }
+  return ids;
+}
+
+std::vector<BodyId> addConveyor(World& world, BodyId, Vec3d at) {
+  const BodyId belt = world.create(BodyDef{.type = BodyType::Kinematic,
+                                           .position = at + Vec3d{0, 0.2, 0},
+                                           .linearVelocity = {0.7f, 0, 0},
+                                           .angularVelocity = {0, 0.3f, 0},
+                                           .shape = Box{3, 0.2f, 3}});
+  std::vector<BodyId> ids{belt};
+  for (int i = 0; i < 6; ++i)
+    ids.push_back(world.create(BodyDef{.position = at + Vec3d{0.1 * i, 0.8 + 0.5 * i, 0.2}, .shape = shapeOf(i)}));
+  const BodyId hung = world.create(BodyDef{.position = at + Vec3d{2, 1.4, 0}, .shape = Sphere{0.2f}});
+  world.create(BallJoint{.bodyA = belt, .bodyB = hung, .frameA = {{2, 0.7, 0}, {}}, .frameB = {{0, -0.5, 0}, {}}});
+  ids.push_back(hung);
+  return ids;
+}
+
+std::vector<BodyId> addSoft(World& world, BodyId, Vec3d at) {
+  std::vector<BodyId> ids;
+  const Vec3d corner[5] = {{0, 1, 0}, {1, 1, 0}, {0.5, 1, 0.9}, {0.5, 1.8, 0.3}, {0.5, 0.3, 0.3}};
+  for (const Vec3d& c : corner)
+    ids.push_back(world.create(BodyDef{.position = at + c, .shape = Sphere{0.1f}, .locks = kLockAngular}));
+  world.create(TetVolume{.bodies = {ids[0], ids[1], ids[2], ids[3]}});
+  world.create(TetVolume{.bodies = {ids[0], ids[1], ids[2], ids[4]}, .stiffness = 1e6f});
+  return ids;
+}
+
+std::vector<BodyId> addLocked(World& world, BodyId, Vec3d at) {
+  std::vector<BodyId> ids;
+  for (int i = 0; i < 5; ++i)
+    ids.push_back(world.create(BodyDef{.position = at + Vec3d{0.05 * i, 0.3 + 0.62 * i, 0},
+                                       .angularVelocity = {1, 0.5f, 0.2f},
+                                       .shape = Box{0.3f, 0.3f, 0.3f},
+                                       .linearDamping = 0.1f,
+                                       .locks = static_cast<uint8_t>(i == 2 ? kLockAngular : 1 << (i + 1))}));
+  return ids;
+}
+
+const std::pair<const char*, Scene> kScenes[] = {{"pile", addPile},         {"chain", addChain}, {"frame", addFrame},
+                                                 {"conveyor", addConveyor}, {"soft", addSoft},   {"locked", addLocked}};
+
+uint64_t hashAfter(const Scene& scene, WorldDef def, int steps) {
+  World world(def);
+  const BodyId ground = addGround(world);
+  scene(world, ground, {});
+  for (int i = 0; i < steps; ++i) world.step(kDt);
+  for (const BodyId id : world.bodies()) EXPECT_TRUE(std::isfinite(length(world.pose(id).position)));
+  return world.hash();
+}
+
+TEST(SameBits, EveryWidthAndEveryRun) {
+  for (const auto& [name, scene] : kScenes) {
+    const uint64_t hash = hashAfter(scene, {.simdWidth = 1}, 150);
+    EXPECT_EQ(hashAfter(scene, {.simdWidth = 1}, 150), hash) << name << ", another run";
+    for (const int width : {4, 8, 16}) {
+      if (!laneWidthRuns(width)) continue;
+      EXPECT_EQ(hashAfter(scene, {.simdWidth = width}, 150), hash) << name << ", width " << width;
+    }
+    EXPECT_NE(hashAfter(scene, {.simdWidth = 1}, 149), hash) << name << ": the hash sees nothing";
+  }
+}
+
+TEST(SameBits, SubstepsToo) {
+  for (const auto& [name, scene] : kScenes) {
+    const uint64_t hash = hashAfter(scene, {.iterations = 2, .substeps = 3, .simdWidth = 4}, 40);
+    EXPECT_EQ(hashAfter(scene, {.iterations = 2, .substeps = 3, .simdWidth = 1}, 40), hash) << name;
+  }
+}
+
+// ---- Unrelated islands -----------------------------------------------------------------------------------------
+
+void addAll(World& world, BodyId ground, Vec3d at) {
+  for (const auto& entry : kScenes) {
+    entry.second(world, ground, at);
+    at = at + Vec3d{0, 0, 100};
+  }
+}
+
+/// Poses and velocities of some bodies, step by step.
+std::vector<std::pair<Pose, Velocity>> trace(World& world, const std::vector<BodyId>& ids, int steps) {
+  std::vector<std::pair<Pose, Velocity>> out;
+  for (int i = 0; i < steps; ++i) {
+    world.step(kDt);
+    for (const BodyId id : ids) out.push_back({world.pose(id), world.velocity(id)});
+  }
+  return out;
+}
+
+TEST(SameBits, NothingFarAwayChangesABit) {
+  for (const auto& [name, scene] : kScenes) {
+    World alone, before, after;
+    const BodyId ground[] = {addGround(alone), addGround(before), addGround(after)};
+    const auto idsAlone = scene(alone, ground[0], {});
+    addAll(before, ground[1], {500, 0, 0});
+    const auto idsBefore = scene(before, ground[1], {});
+    const auto idsAfter = scene(after, ground[2], {});
+    addAll(after, ground[2], {500, 0, 0});
+    const auto expected = trace(alone, idsAlone, 120);
+    EXPECT_TRUE(trace(before, idsBefore, 120) == expected) << name << ", made after the others";
+    EXPECT_TRUE(trace(after, idsAfter, 120) == expected) << name << ", made before the others";
+  }
+}
+
+TEST(SameBits, WhatComesAndGoesFarAwayChangesNothing) {
+  for (const auto& [name, scene] : kScenes) {
+    World alone, visited;
+    const BodyId ground[] = {addGround(alone), addGround(visited)};
+    const auto ids = scene(alone, ground[0], {}), visitedIds = scene(visited, ground[1], {});
+    for (int round = 0; round < 4; ++round) {
+      std::vector<BodyId> guests = addPile(visited, ground[1], {500, 0, 0});
+      const auto expected = trace(alone, ids, 20);
+      ASSERT_TRUE(trace(visited, visitedIds, 20) == expected) << name << " with guests, round " << round;
+      for (const BodyId id : guests) visited.destroy(id);
+      const auto later = trace(alone, ids, 5);
+      ASSERT_TRUE(trace(visited, visitedIds, 5) == later) << name << " after the guests, round " << round;
+    }
+  }
+}
+
+// ---- Scale -----------------------------------------------------------------------------------------------------
+
+// Powers of two round alike: with all masses 2^k larger the motion is the same to the bit, and forces are 2^k larger.
+TEST(Scale, MassesTimesAPowerOfTwoMoveAlike) {
+  for (const float by : {1024.0f, 1 / 1024.0f}) {
+    World one, scaled;
+    std::vector<BodyId> ids, scaledIds;
+    for (World* world : {&one, &scaled}) {
+      const float density = world == &one ? 1000 : 1000 * by;
+      addGround(*world);
+      auto& list = world == &one ? ids : scaledIds;
+      for (int i = 0; i < 20; ++i)
+        list.push_back(world->create(BodyDef{.position = {0.31 * (i % 3), 0.4 + 0.45 * (i / 3), 0.29 * (i % 2)},
+                                             .shape = shapeOf(i),
+                                             .density = density}));
+      for (size_t i = 0; i + 1 < 6; ++i)
+        world->create(BallJoint{
+            .bodyA = list[i], .bodyB = list[i + 1], .frameA = {{0.2, 0.2, 0}, {}}, .frameB = {{-0.1, -0.2, 0}, {}}});
+    }
+    for (int i = 0; i < 120; ++i) {
+      one.step(kDt);
+      scaled.step(kDt);
+      for (size_t k = 0; k < ids.size(); ++k) ASSERT_EQ(one.pose(ids[k]), scaled.pose(scaledIds[k])) << i << " " << by;
+    }
+    const auto a = one.contacts(), b = scaled.contacts();
+    ASSERT_EQ(a.size(), b.size());
+    ASSERT_GT(a.size(), 10u);
+    for (size_t i = 0; i < a.size(); ++i)
+      for (int k = 0; k < a[i].pointCount; ++k) {
+        const ContactPoint &p = a[i].points[static_cast<size_t>(k)], &q = b[i].points[static_cast<size_t>(k)];
+        EXPECT_EQ(q.normalForce, by * p.normalForce);
+        EXPECT_EQ(q.frictionForce, p.frictionForce * by);
+      }
+    for (size_t i = 0; i < one.jointCount(); ++i)
+      EXPECT_EQ(scaled.reaction(scaled.joints()[i]).force, one.reaction(one.joints()[i]).force * by);
+  }
+}
+
+/// The same scene in units of which `unit` make a metre; times and masses as they are.
+std::vector<Vec3d> positionsInUnits(float unit, int steps) {
+  World world({.gravity = {0, -9.81f * unit, 0},
+               .lengthUnit = unit,
+               .restitutionThreshold = unit,
+               .maxDepenetrationSpeed = 3 * unit});
+  addGround(world);
+  std::vector<BodyId> ids;
+  for (int i = 0; i < 16; ++i) {
+    Geometry shape = shapeOf(i);
+    if (auto* box = std::get_if<Box>(&shape)) *box = {box->x * unit, box->y * unit, box->z * unit};
+    if (auto* ball = std::get_if<Sphere>(&shape)) ball->radius *= unit;
+    if (auto* capsule = std::get_if<Capsule>(&shape)) *capsule = {capsule->radius * unit, capsule->halfHeight * unit};
+    ids.push_back(
+        world.create(BodyDef{.position = Vec3d{0.31 * (i % 3), 0.4 + 0.45 * (i / 3), 0.29 * (i % 2)} * double(unit),
+                             .shape = shape,
+                             .mass = 1 + static_cast<float>(i % 4),
+                             .maxLinearSpeed = 1e4f * unit}));
+  }
+  world.create(BallJoint{.bodyA = ids[0],
+                         .bodyB = ids[3],
+                         .frameA = {Vec3d{0, 0.2, 0} * double(unit), {}},
+                         .frameB = {Vec3d{0, -0.25, 0} * double(unit), {}}});
+  for (int i = 0; i < steps; ++i) world.step(kDt);
+  std::vector<Vec3d> out;
+  for (const BodyId id : ids) out.push_back(world.pose(id).position * (1 / double(unit)));
+  return out;
+}
+
+TEST(Scale, LengthUnitIsANameForTheMetre) {
+  const std::vector<Vec3d> metres = positionsInUnits(1, 60);
+  for (const float unit : {1024.0f, 1 / 32.0f}) {
+    const std::vector<Vec3d> other = positionsInUnits(unit, 60);
+    for (size_t i = 0; i < metres.size(); ++i) EXPECT_EQ(other[i], metres[i]) << "unit " << unit << " body " << i;
+  }
+}
+
+}  // namespace
+}  // namespace avbd
