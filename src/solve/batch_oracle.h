@@ -87,12 +87,10 @@ class TestBatch {
     const float scale = 1 / (kStep * kStep);
     put(mass, row, kilograms * scale, inertia * scale);
     put(invMass, row, 1 / kilograms, inverse(inertia));
-    put(d, row, randomVector(random, 0.05f), randomVector(random, 0.05f));
-    put(target, row, randomVector(random, 0.05f), randomVector(random, 0.05f));
+    put(d, row, randomMotion(random));
+    put(target, row, randomMotion(random));
   }
-  void fillKinematic(uint32_t row, Random& random) {
-    put(d, row, randomVector(random, 0.05f), randomVector(random, 0.05f));
-  }
+  void fillKinematic(uint32_t row, Random& random) { put(d, row, randomMotion(random)); }
   rows::Twist<float> motion(uint32_t row) const {
     const float* m = d.data() + 8 * row;
     return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}};
@@ -124,9 +122,12 @@ class TestBatch {
     std::vector<uint32_t> a, b;
   };
 
-  static void put(AlignedVector<float>& array, uint32_t row, V3<float> lin, V3<float> ang) {
+  static rows::Twist<float> randomMotion(Random& random) {
+    return {randomVector(random, 0.05f), randomVector(random, 0.05f)};
+  }
+  static void put(AlignedVector<float>& array, uint32_t row, const rows::Twist<float>& twist) {
     float* to = array.data() + 8 * row;
-    oracle::put(to, lin), oracle::put(to + 4, ang);
+    oracle::put(to, twist.lin), oracle::put(to + 4, twist.ang);
   }
   static void put(AlignedVector<float>& array, uint32_t row, float linear, const rows::Sym3<float>& s) {
     const float value[7] = {linear, s.xx, s.yy, s.zz, s.xy, s.xz, s.yz};

@@ -217,7 +217,7 @@ TEST_P(Sliding, StopsWhereItsCoefficientSays) {
 constexpr Combine kMean = Combine::GeometricMean, kAverage = Combine::Average, kMinimum = Combine::Minimum,
                   kMultiply = Combine::Multiply, kMaximum = Combine::Maximum;
 const Rule kRules[] = {
-    {"GeometricMean", {.friction = 0.1f}, {.friction = 0.4f}, 0.2f},
+    {"GeometricMean", {.friction = 0.1f, .frictionCombine = kMean}, {.friction = 0.4f}, 0.2f},
     {"Average", {.friction = 0.1f, .frictionCombine = kAverage}, {.friction = 0.4f}, 0.25f},
     {"Minimum", {.friction = 0.15f}, {.friction = 0.4f, .frictionCombine = kMinimum}, 0.15f},
     {"Multiply", {.friction = 0.5f, .frictionCombine = kMultiply}, {.friction = 0.4f}, 0.2f},
@@ -263,8 +263,8 @@ TEST(Friction, StaticHoldsAndOnceBrokenDynamicDoesNot) {
 TEST(Friction, StickingEndsAtTheStaticCoefficient) {
   for (const auto& [dynamic, limit] : {std::pair{0.3f, 0.6f}, {0.3f, 0.9f}, {0.4f, 0.4f}}) {
     Slope slope({.friction = dynamic, .staticFriction = limit});
-    float at = limit - 0.1f;
-    for (; at < 1 && slope.speed() < 0.05f; at += 0.0005f) {
+    float at = 0.5f * limit;
+    for (; at < 1 && slope.speed() < 0.05f; at += 0.001f) {
       slope.pull(at);
       slope.world.step(kDt);
     }
