@@ -39,6 +39,10 @@ void substep(WorldData& world, StepData& step) {
   run(Stage::Publish, publish, world, step);
 }
 
+void forgetForces(WorldData& world) {
+  world.bodyIds.forEach([&](uint32_t slot) { world.bodies[slot].force = world.bodies[slot].torque = {}; });
+}
+
 }  // namespace
 
 void Stepper::step(WorldData& world, float dt) {
@@ -51,10 +55,11 @@ void Stepper::step(WorldData& world, float dt) {
       substep(world, step);
     } catch (const NonFiniteError&) {
       if (i > 0) world.bodies = step.bodiesBefore;
+      forgetForces(world);
       throw;
     }
   }
-  world.bodyIds.forEach([&](uint32_t slot) { world.bodies[slot].force = world.bodies[slot].torque = {}; });
+  forgetForces(world);
   world.time += dt;
   ++world.report.step;
 }

@@ -127,6 +127,14 @@ void rememberPoints(PairData& pair, const BodyData& a, const BodyData& b, Vec3 f
   pair.pointCount = pair.manifold.count;
 }
 
+/// A contact that begins fast enough along the surface that friction cannot hold it within the step begins as a slide.
+void beginSlide(const WorldData& world, const StepData& step, PairData& pair, const BodyData& a, const BodyData& b) {
+  const Vec3 armA = pair.manifold.points[0].position, armB = armA - toFloat(b.position - a.position);
+  const Vec3 motion = b.linearVelocity + cross(b.angularVelocity, armB) - a.linearVelocity - cross(a.angularVelocity, armA);
+  const Vec3 slip = motion - pair.normal * dot(motion, pair.normal);
+  pair.slides = length(slip) > pair.staticFriction * length(world.def.gravity) * step.h ? 2 : 0;
+}
+
 }  // namespace
 
 void findContacts(WorldData& world, StepData& step) {
@@ -143,7 +151,9 @@ void findContacts(WorldData& world, StepData& step) {
       continue;
     }
     combineMaterials(pair, shapeA.material, shapeB.material);
+    const bool begins = pair.pointCount == 0;
     rememberPoints(pair, a, b, toFloat(b.position - a.position));
+    if (begins) beginSlide(world, step, pair, a, b);
     ++contacts;
     points += static_cast<uint32_t>(pair.manifold.count);
   }

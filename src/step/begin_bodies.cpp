@@ -5,9 +5,9 @@ namespace avbd {
 
 namespace {
 
-void fill(float* row, float mass, const rows::Sym3<float>& inertia, float scale) {
+void fill(float* row, float mass, const rows::Sym3<float>& inertia) {
   const float value[7] = {mass, inertia.xx, inertia.yy, inertia.zz, inertia.xy, inertia.xz, inertia.yz};
-  for (int i = 0; i < 7; ++i) row[i] = value[i] * scale;
+  for (int i = 0; i < 7; ++i) row[i] = value[i];
 }
 
 /// Locked axes take no impulse. Translation is one number in a row, so only a lock of all three axes shows there.
@@ -22,7 +22,7 @@ void lockInverse(float* row, uint8_t locks) {
 }  // namespace
 
 void fillBodies(const WorldData& world, StepData& step) {
-  const float scale = 1 / (step.h * step.h);
+  const float h = step.h;
   step.globalRow.assign(world.bodies.size(), kNone);
   for (const BatchRange& batch : step.batches)
     for (uint32_t i = 0; i < batch.bodies; ++i) {
@@ -31,8 +31,12 @@ void fillBodies(const WorldData& world, StepData& step) {
       step.globalRow[slot] = batch.rowBegin + i;
       const rows::M33<float> turn = rows::toMatrix(toRow(body.rotation));
       const size_t at = size_t(8) * (batch.rowBegin + i);
-      fill(step.mass.data() + at, body.mass, rotated(toRow(body.inertia), turn), scale);
-      fill(step.invMass.data() + at, 1 / body.mass, rotated(toRow(body.invInertia), turn), 1);
+      // Damping makes a body sluggish for this step: what it damps of a force, the force must bring up, and a body at
+      // rest rests on its whole weight.
+      const float linear = 1 / (h * h * decay(body.linearDamping * h));
+      const float angular = 1 / (h * h * decay(body.angularDamping * h));
+      fill(step.mass.data() + at, body.mass * linear, rotated(toRow(body.inertia), turn) * angular);
+      fill(step.invMass.data() + at, 1 / body.mass, rotated(toRow(body.invInertia), turn));
       if (body.locks) lockInverse(step.invMass.data() + at, body.locks);
     }
   for (const StepData::KinematicRow& k : step.kinematicRows) {

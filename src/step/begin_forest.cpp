@@ -98,6 +98,8 @@ void addToTiles(StepData& step, BatchRange& batch, const TreeJoint& joint) {
   step.ranges[batch.islandBegin + joint.island].coupled = true;
 }
 
+bool hasLocks(const WorldData& world, uint32_t body) { return body != kNone && world.bodies[body].locks != 0; }
+
 void placeJoint(const WorldData& world, StepData& step, BatchRange& batch, uint32_t slot, uint32_t island) {
   const JointData& data = world.joints[slot];
   TreeJoint joint;
@@ -107,7 +109,9 @@ void placeJoint(const WorldData& world, StepData& step, BatchRange& batch, uint3
   joint.angular = data.type == JointType::Fixed;
   joint.m = joint.angular ? 6 : 3;
   const auto element = [&](uint32_t row) { return row < batch.bodies ? row : batch.bodies; };
-  const bool tree = world.def.primalSolver == PrimalSolver::Krylov &&
+  // A locked axis of a child would leave the joint's elimination singular.
+  const bool locked = hasLocks(world, data.body[0]) || hasLocks(world, data.body[1]);
+  const bool tree = world.def.primalSolver == PrimalSolver::Krylov && !locked &&
                     join(step.planting.set, element(joint.rowA), element(joint.rowB));
   tree ? addToTree(step, batch, joint) : addToTiles(step, batch, joint);
 }

@@ -30,11 +30,12 @@ Side sideOf(const WorldData& world, const JointData& joint, int i) {
   side.axes = toRow(body.rotation * joint.axes[i]);
   side.arm = toRow(arm);
   if (body.type != BodyType::Dynamic) return side;
-  side.invMass = 1 / body.mass;
+  side.invMass = (body.locks & 7) == 7 ? 0 : 1 / body.mass;
   side.invInertia = rotated(toRow(body.invInertia), toRow(body.rotation));
   const float trace = side.invInertia.xx + side.invInertia.yy + side.invInertia.zz;
   const float size = dot(side.arm, side.arm);
-  side.turning = 0.5f * (trace - (size > 0 ? dot(side.arm, side.invInertia * side.arm) / size : trace / 3));
+  if ((body.locks >> 3) == 7) side.invInertia = {};
+  else side.turning = 0.5f * (trace - (size > 0 ? dot(side.arm, side.invInertia * side.arm) / size : trace / 3));
   return side;
 }
 
@@ -63,15 +64,22 @@ rows::FixedJoint<float> jointRows(const WorldData& world, const StepData& step, 
   rows.ball.lambda = {joint.lambda[0], joint.lambda[1], joint.lambda[2]};
   rows.ball.tau = world.def.jointArmBlend >= 0 ? world.def.jointArmBlend : armBlend(step, a, b, length(rows.ball.lambda));
   const float w = a.invMass + b.invMass + a.turning * dot(a.arm, a.arm) + b.turning * dot(b.arm, b.arm);
-  rows.ball.k = kJointFactor / (w * step.h * step.h);
+  rows.ball.k = w > 0 ? kJointFactor / (w * step.h * step.h) : 0;
   if (joint.type != JointType::Fixed) return rows;
   rows.q0 = a.axes * conjugate(b.axes);
   const rows::V3<float> turned = logQuat(rows.q0);
   rows.held = turned - corrected(step, turned, speed / world.def.lengthUnit);
   rows.lambda = {joint.lambda[3], joint.lambda[4], joint.lambda[5]};
   const rows::Sym3<float> turning = a.invInertia + b.invInertia;
-  rows.kAngular = kJointFactor * 3 / ((turning.xx + turning.yy + turning.zz) * step.h * step.h);
+  const float wAngular = (turning.xx + turning.yy + turning.zz) / 3;
+  rows.kAngular = wAngular > 0 ? kJointFactor / (wAngular * step.h * step.h) : 0;
   return rows;
+}
+
+double volumeOf(const WorldData& world, const JointData& joint) {
+  const auto edge = [&](int i) { return world.bodies[joint.body[i]].position - world.bodies[joint.body[0]].position; };
+  const Vec3d b = edge(1), c = edge(2), d = edge(3);
+  return dot(b, Vec3d{c.y * d.z - c.z * d.y, c.z * d.x - c.x * d.z, c.x * d.y - c.y * d.x}) / 6;
 }
 
 rows::TetVolume<float> tetRows(const WorldData& world, const StepData& step, const JointData& joint) {
@@ -87,10 +95,10 @@ rows::TetVolume<float> tetRows(const WorldData& world, const StepData& step, con
     const BodyData& body = world.bodies[joint.body[i]];
     if (body.type == BodyType::Dynamic) w += dot(j[i], j[i]) / (36 * body.mass);
   }
-  const float volume = dot(tet.ab, jb) / 6;
+  const double excess = volumeOf(world, joint) - joint.restVolume;
   const float rho = w > 0 ? kJointFactor / (w * step.h * step.h) : 0;
   const bool hard = joint.stiffness <= 0;
-  tet.restVolume = hard ? joint.restVolume + step.alpha * (volume - joint.restVolume) : joint.restVolume;
+  tet.bias = static_cast<float>(hard ? (1 - step.alpha) * excess : excess);
   tet.k = hard ? rho : joint.stiffness * rho / (joint.stiffness + rho);
   tet.s = hard ? 1 : joint.stiffness / (joint.stiffness + rho);
   tet.lambda = joint.lambda[0];

@@ -1,6 +1,6 @@
 // Volume of a tetrahedron over four blocks: one row.
 //
-// C = (b - a) . ((c - a) x (d - a)) / 6 - V0, evaluated at the current positions; J is its exact gradient:
+// C = (b - a) . ((c - a) x (d - a)) / 6 - V0 at the current positions, as C_start plus the change; J is its exact gradient:
 // J_b = (c - a) x (d - a) / 6, J_c = (d - a) x (b - a) / 6, J_d = (b - a) x (c - a) / 6, J_a = -(J_b + J_c + J_d).
 // Left out: the second derivative of C.
 #pragma once
@@ -13,7 +13,7 @@ template <class R>
 struct TetVolume {
   static constexpr int kBlocks = 4;
   V3<R> ab, ac, ad;  ///< edges at the start of the step [m]
-  R restVolume;      ///< [m^3], with the stabilisation's share of C_start
+  R bias;            ///< C at the start of the step, stabilised [m^3]
   R k, s;            ///< [N/m^5]
   R lambda;          ///< [J/m^3]
 
@@ -26,7 +26,9 @@ struct TetVolume {
     row.lin[2] = cross(e, b) * sixth;
     row.lin[3] = cross(b, c) * sixth;
     row.lin[0] = -(row.lin[1] + row.lin[2] + row.lin[3]);
-    row.C = dot(b, row.lin[1]) - restVolume;
+    // The change of volume, term by term: the difference of two volumes would lose it in rounding.
+    const V3<R> db = d[1] - d[0], dc = d[2] - d[0], de = d[3] - d[0];
+    row.C = bias + (dot(db, cross(c, e)) + dot(ab, cross(dc, e)) + dot(ab, cross(ac, de))) * sixth;
     row.k = k;
     row.s = s;
     row.lower = -inf;
