@@ -17,9 +17,9 @@ struct Mechanism {
 };
 
 struct Result {
-  double energy = 0;    ///< change over the run, relative to the largest potential energy at stake (or to the kinetic)
-  double gap = 0;       ///< largest [m]
-  double linear = 0;    ///< momentum drift relative to the initial sum of magnitudes
+  double energy = 0;  ///< change over the run, relative to the largest potential energy at stake (or to the kinetic)
+  double gap = 0;     ///< largest [m]
+  double linear = 0;  ///< momentum drift relative to the initial sum of magnitudes
   double angular = 0;
   bool finite = true;
 };
@@ -32,7 +32,9 @@ Mechanism make(float blend, Vec3 gravity) {
 }
 
 void hang(Mechanism& m, BodyId a, BodyId b, Vec3d at) {
-  const auto local = [&](BodyId id) { return id ? Pose{(inverse(m.world.pose(id)) * Pose{at, {}}).position, {}} : Pose{at, {}}; };
+  const auto local = [&](BodyId id) {
+    return id ? Pose{(inverse(m.world.pose(id)) * Pose{at, {}}).position, {}} : Pose{at, {}};
+  };
   m.joints.push_back(m.world.create(BallJoint{.bodyA = a, .bodyB = b, .frameA = local(a), .frameB = local(b)}));
 }
 
@@ -41,15 +43,17 @@ Mechanism chain(float blend, Vec3 gravity, int links, double ball, bool anchored
   Mechanism m = make(blend, gravity);
   BodyId last;
   for (int i = 0; i < links; ++i) {
-    const BodyId link = m.world.create(BodyDef{.position = {0.25 + 0.5 * i, 0, 0}, .shape = Box{0.25f, 0.05f, 0.05f}, .mass = 1,
-                                               .filter = {.mask = 0}});
+    const BodyId link = m.world.create(BodyDef{
+        .position = {0.25 + 0.5 * i, 0, 0}, .shape = Box{0.25f, 0.05f, 0.05f}, .mass = 1, .filter = {.mask = 0}});
     m.bodies.push_back(link);
     if (anchored || last) hang(m, last, link, {0.5 * i, 0, 0});
     last = link;
   }
   if (ball > 0) {
-    m.bodies.push_back(m.world.create(BodyDef{.position = {0.5 * links + 1, 0, 0}, .shape = Sphere{1},
-                                              .mass = static_cast<float>(ball), .filter = {.mask = 0}}));
+    m.bodies.push_back(m.world.create(BodyDef{.position = {0.5 * links + 1, 0, 0},
+                                              .shape = Sphere{1},
+                                              .mass = static_cast<float>(ball),
+                                              .filter = {.mask = 0}}));
     hang(m, last, m.bodies.back(), {0.5 * links, 0, 0});
   }
   return m;
@@ -101,14 +105,15 @@ void print(const char* choice, const Result& pendulum, const Result& heavy, cons
     std::snprintf(text, sizeof text, "%+.2f %%, %.3f mm", 100 * r.energy, 1e3 * r.gap);
     return std::string(text);
   };
-  std::printf("| %s | %s | %s | %s, %.1e, %.1e |\n", choice, pair(pendulum).c_str(), pair(heavy).c_str(), pair(free).c_str(),
-              free.linear, free.angular);
+  std::printf("| %s | %s | %s | %s, %.1e, %.1e |\n", choice, pair(pendulum).c_str(), pair(heavy).c_str(),
+              pair(free).c_str(), free.linear, free.angular);
 }
 
 Mechanism tumbling(float blend) {
   Mechanism m = chain(blend, {}, 10, 0, false);
   for (size_t i = 0; i < m.bodies.size(); ++i)
-    m.world.setVelocity(m.bodies[i], {{0, i % 2 ? 0.4f : -0.3f, i % 3 ? 0.2f : -0.5f}, {0.5f, 0, i % 4 ? 1.5f : -2.0f}});
+    m.world.setVelocity(m.bodies[i],
+                        {{0, i % 2 ? 0.4f : -0.3f, i % 3 ? 0.2f : -0.5f}, {0.5f, 0, i % 4 ? 1.5f : -2.0f}});
   return m;
 }
 
@@ -116,14 +121,15 @@ Mechanism tumbling(float blend) {
 
 int main() {
   const Vec3 gravity{0, -9.81f, 0};
-  std::printf("| arms in J | double pendulum: energy, gap | 1000 kg on 50 links: energy, gap | "
-              "ten links tumbling free: energy, gap, linear and angular momentum drift |\n|---|---|---|---|\n");
+  std::printf(
+      "| arms in J | double pendulum: energy, gap | 1000 kg on 50 links: energy, gap | "
+      "ten links tumbling free: energy, gap, linear and angular momentum drift |\n|---|---|---|---|\n");
   const struct {
     const char* name;
     float blend;
   } choices[] = {{"start (SHAKE)", 0}, {"middle", 0.5f}, {"end", 1}, {"chosen per joint", -1}};
   for (const auto& c : choices) {
-    print(c.name, run(chain(c.blend, gravity, 2, 0, true), 2 * 9.81), run(chain(c.blend, gravity, 50, 1000, true), 1000 * 9.81 * 26),
-          run(tumbling(c.blend), 0));
+    print(c.name, run(chain(c.blend, gravity, 2, 0, true), 2 * 9.81),
+          run(chain(c.blend, gravity, 50, 1000, true), 1000 * 9.81 * 26), run(tumbling(c.blend), 0));
   }
 }

@@ -58,7 +58,8 @@ Layout layoutOf(const World& world) {
     for (const ShapeId s : world.shapes(id))
       layout.pieces.push_back({slot, world.geometry(s), world.localPose(s), world.filter(s)});
   }
-  for (const auto& [a, b] : world.excludedPairs()) layout.separated.insert(pairKey(slots.at(a.index), slots.at(b.index)));
+  for (const auto& [a, b] : world.excludedPairs())
+    layout.separated.insert(pairKey(slots.at(a.index), slots.at(b.index)));
   for (const JointId id : world.joints()) {
     if (world.type(id) == JointType::Ball) addJoint(layout, world.ballJoint(id), slots);
     if (world.type(id) == JointType::Fixed) addJoint(layout, world.fixedJoint(id), slots);

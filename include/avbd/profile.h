@@ -8,7 +8,18 @@
 namespace avbd {
 
 /// Stages of a step in the order in which they run; the files of src/step carry the same names.
-enum class Stage : uint8_t { Pairs, Contacts, Islands, Colors, BeginRows, Predict, SolveBlocks, UpdateRows, Velocities, Publish };
+enum class Stage : uint8_t {
+  Pairs,
+  Contacts,
+  Islands,
+  Colors,
+  BeginRows,
+  Predict,
+  SolveBlocks,
+  UpdateRows,
+  Velocities,
+  Publish
+};
 inline constexpr size_t kStageCount = 10;
 /// Name of a stage as in its file: "pairs", "contacts", ... "publish".
 const char* stageName(Stage stage);
@@ -22,8 +33,8 @@ struct StepReport {
   uint32_t points = 0;    ///< contact points
   uint32_t joints = 0;
   uint32_t islands = 0;
-  uint32_t colors = 0;    ///< of the block sweep; 0 where it did not run
-  uint32_t simdWidth = 0; ///< lanes used: 1, 4, 8 or 16
+  uint32_t colors = 0;                        ///< of the block sweep; 0 where it did not run
+  uint32_t simdWidth = 0;                     ///< lanes used: 1, 4, 8 or 16
   std::array<double, kStageCount> seconds{};  ///< wall time of each stage
 };
 

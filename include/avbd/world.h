@@ -29,14 +29,16 @@ struct WorldDef {
   /// Size of a usual thing, in the unit of the positions: 1 where that is the metre. All tolerances scale with it.
   float lengthUnit = 1;
   float restitutionThreshold = 1;  ///< [m/s] approach speed below which nothing rebounds
-  /// [m/s] at which bodies that overlap at the start of a step, or are not where their joint wants them, are moved at most.
+  /// [m/s] at which bodies that overlap at the start of a step, or are not where their joint wants them, are moved at
+  /// most.
   float maxDepenetrationSpeed = 3;
   PrimalSolver primalSolver = PrimalSolver::Krylov;
   int krylovIterations = 0;  ///< conjugate-gradient steps per outer iteration; 0 takes the default, <= 1000
-  /// Where joints take their arms: 0 at the step's start (symplectic; unstable under heavy loads), 1 at its end (implicit;
-  /// eats energy), between: a blend. -1 chooses for each joint and step by its stability number (docs/method.md).
+  /// Where joints take their arms: 0 at the step's start (symplectic; unstable under heavy loads), 1 at its end
+  /// (implicit; eats energy), between: a blend. -1 chooses for each joint and step by its stability number
+  /// (docs/method.md).
   float jointArmBlend = -1;
-  int simdWidth = 0;         ///< 1, 4, 8, 16; 0 takes the widest that this processor runs. Changes no bit of the result.
+  int simdWidth = 0;  ///< 1, 4, 8, 16; 0 takes the widest that this processor runs. Changes no bit of the result.
 };
 
 /// A simulation. Different worlds may be used by different threads at the same time. One world may be read (every
@@ -54,7 +56,7 @@ class World {
   JointId create(const BallJoint& def);
   JointId create(const FixedJoint& def);
   JointId create(const TetVolume& def);
-  void destroy(BodyId id);  ///< with its shapes and its joints
+  void destroy(BodyId id);   ///< with its shapes and its joints
   void destroy(ShapeId id);  ///< as create; a dynamic body that loses its last mass keeps what it had
   void destroy(JointId id);
   bool isAlive(BodyId id) const;
@@ -62,8 +64,8 @@ class World {
   bool isAlive(JointId id) const;
   /// Shapes of these two bodies never touch from now on.
   void excludeCollision(BodyId a, BodyId b);
-  /// Bodies that never touch each other: excluded by the call above or by a joint between them. Each pair once, the lower
-  /// slot first, in ascending order.
+  /// Bodies that never touch each other: excluded by the call above or by a joint between them. Each pair once, the
+  /// lower slot first, in ascending order.
   std::vector<std::array<BodyId, 2>> excludedPairs() const;
 
   /// Advances time by dt [s], 0 < dt <= 1. Throws Error for a bad dt, NonFiniteError if a body's state becomes NaN or
@@ -92,18 +94,18 @@ class World {
   void setPose(BodyId id, const Pose& pose);
   Velocity velocity(BodyId id) const;
   void setVelocity(BodyId id, const Velocity& velocity);  ///< not of static bodies; zero along locked axes
-  float mass(BodyId id) const;            ///< [kg]; 0 for static and kinematic bodies
-  SymMat3 inertia(BodyId id) const;       ///< about the centre of mass, body axes
-  Vec3 centerOfMass(BodyId id) const;     ///< in the body's frame
+  float mass(BodyId id) const;                            ///< [kg]; 0 for static and kinematic bodies
+  SymMat3 inertia(BodyId id) const;                       ///< about the centre of mass, body axes
+  Vec3 centerOfMass(BodyId id) const;                     ///< in the body's frame
   Vec3d worldCenterOfMass(BodyId id) const;
   void setMassProperties(BodyId id, const MassProperties& properties);  ///< dynamic bodies only
   /// Forces, torques and impulses: dynamic bodies only. Forces act during the next step and are then forgotten.
-  void addForce(BodyId id, Vec3 force);                  ///< [N]
-  void addForceAt(BodyId id, Vec3 force, Vec3d point);   ///< [N] at a world point
-  void addTorque(BodyId id, Vec3 torque);                ///< [N m]
-  void addImpulse(BodyId id, Vec3 impulse);              ///< [N s], changes the velocity now
+  void addForce(BodyId id, Vec3 force);                 ///< [N]
+  void addForceAt(BodyId id, Vec3 force, Vec3d point);  ///< [N] at a world point
+  void addTorque(BodyId id, Vec3 torque);               ///< [N m]
+  void addImpulse(BodyId id, Vec3 impulse);             ///< [N s], changes the velocity now
   void addImpulseAt(BodyId id, Vec3 impulse, Vec3d point);
-  void addAngularImpulse(BodyId id, Vec3 impulse);       ///< [N m s]
+  void addAngularImpulse(BodyId id, Vec3 impulse);  ///< [N m s]
   void setDamping(BodyId id, float linear, float angular);
   void setGravityScale(BodyId id, float scale);
   void setLocks(BodyId id, uint8_t locks);
@@ -111,9 +113,9 @@ class World {
   uint64_t userData(BodyId id) const;
   void setUserData(BodyId id, uint64_t data);
   std::vector<ShapeId> shapes(BodyId id) const;
-  double kineticEnergy(BodyId id) const;  ///< [J]
-  double kineticEnergy() const;           ///< of all dynamic bodies
-  Vec3d momentum() const;                 ///< of all dynamic bodies [kg m/s]
+  double kineticEnergy(BodyId id) const;          ///< [J]
+  double kineticEnergy() const;                   ///< of all dynamic bodies
+  Vec3d momentum() const;                         ///< of all dynamic bodies [kg m/s]
   Vec3d angularMomentum(Vec3d about = {}) const;  ///< [kg m^2/s]
 
   // Bulk: out[i] belongs to ids[i]; spans of equal length, else Error.

@@ -7,7 +7,8 @@ bool laneWidthRuns(int width) {
 #if defined(__x86_64__)
   if (width == 8) return __builtin_cpu_supports("avx2");
   if (width == 16)
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512dq");
 #endif
   return width == 1 || width == 4 || width == 8 || width == 16;
 }
@@ -22,10 +23,14 @@ int widestLane() {
 
 const Backend& backend(int width) {
   switch (width) {
-    case 1: return w1::kBackend;
-    case 8: return w8::kBackend;
-    case 16: return w16::kBackend;
-    default: return w4::kBackend;
+    case 1:
+      return w1::kBackend;
+    case 8:
+      return w8::kBackend;
+    case 16:
+      return w16::kBackend;
+    default:
+      return w4::kBackend;
   }
 }
 

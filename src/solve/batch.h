@@ -16,7 +16,6 @@ namespace avbd {
 
 inline constexpr int kHessianRow = 24;  ///< floats a body: Sym6, padded
 
-
 /// What the products with H need of a pair: its stiffness about the reference point and the arms to it.
 template <class R>
 struct PairOp {
@@ -68,12 +67,12 @@ struct BatchView {
   const float* invMass = nullptr;  ///< (1/m, I^-1 ..., -); 0 for static and kinematic
   float* diagonal = nullptr;       ///< as mass, with the geometric stiffness of joints
   float* gradient = nullptr;
-  float* hessian = nullptr;        ///< kHessianRow floats a body
+  float* hessian = nullptr;             ///< kHessianRow floats a body
   Tile<rows::Sym6>* inverse = nullptr;  ///< of 16 bodies: their inverse blocks
   float *x = nullptr, *r = nullptr, *z = nullptr, *p = nullptr, *q = nullptr;
 
   PairTiles<rows::Contact> contacts;
-  PairTiles<rows::BallJoint> balls;   ///< those that no tree holds
+  PairTiles<rows::BallJoint> balls;  ///< those that no tree holds
   PairTiles<rows::FixedJoint> fixed;
   TetTiles tets;
   Tile<PairOp>* op = nullptr;  ///< contacts, then balls, then fixed
@@ -85,12 +84,12 @@ struct BatchView {
 
 /// What a step asks of the solver.
 struct SolveSettings {
-  float h = 0;              ///< [s] of a substep
+  float h = 0;  ///< [s] of a substep
   int iterations = 4;
   int krylovIterations = 8;
-  float contactLeak = 1;    ///< share of a contact multiplier that survives an iteration
-  float jointLeak = 1;       ///< the same of joints outside trees: loops that cannot close must not wind up
-  float floorFactor = 10;   ///< c: stiffness floor is c / (w h^2)
+  float contactLeak = 1;   ///< share of a contact multiplier that survives an iteration
+  float jointLeak = 1;     ///< the same of joints outside trees: loops that cannot close must not wind up
+  float floorFactor = 10;  ///< c: stiffness floor is c / (w h^2)
 };
 
 }  // namespace avbd

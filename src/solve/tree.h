@@ -38,8 +38,8 @@ struct TreeNode {
   float y[6];           ///< right side on the way down
 };
 
-/// All trees of a batch; parents stand before children. `active` tells of each island of the batch whether it takes part;
-/// the others are not touched, so that how long an island iterates changes nothing in its neighbours.
+/// All trees of a batch; parents stand before children. `active` tells of each island of the batch whether it takes
+/// part; the others are not touched, so that how long an island iterates changes nothing in its neighbours.
 class Forest {
  public:
   std::vector<TreeNode> nodes;

@@ -9,9 +9,7 @@ namespace avbd {
 
 namespace {
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void run(Stage stage, void (*f)(WorldData&, StepData&), WorldData& world, StepData& step) {
   const double start = now();

@@ -9,9 +9,9 @@ namespace avbd {
 
 namespace {
 
-constexpr float kSameNormal = 0.9f;     ///< cosine: a normal that turned farther keeps no multipliers
-constexpr float kNearPoint = 0.1f;      ///< of the smaller half thickness: the nearest old point still counts as this one
-constexpr float kAnchorDrift = 0.01f;   ///< of the smaller half thickness: farther from its anchor a point has rolled on
+constexpr float kSameNormal = 0.9f;  ///< cosine: a normal that turned farther keeps no multipliers
+constexpr float kNearPoint = 0.1f;   ///< of the smaller half thickness: the nearest old point still counts as this one
+constexpr float kAnchorDrift = 0.01f;  ///< of the smaller half thickness: farther from its anchor a point has rolled on
 
 NearPose nearPose(const BodyData& body, const ShapeData& shape, Vec3d origin) {
   return {toFloat(body.position - origin) + rotate(body.rotation, shape.toMass.p), body.rotation * shape.toMass.q};
@@ -28,11 +28,16 @@ float speculativeMargin(const WorldData& world, const BodyData& a, const BodyDat
 
 float combined(float a, float b, Combine rule) {
   switch (rule) {
-    case Combine::GeometricMean: return rows::sqrt(a * b);
-    case Combine::Average: return 0.5f * (a + b);
-    case Combine::Minimum: return std::min(a, b);
-    case Combine::Multiply: return a * b;
-    case Combine::Maximum: return std::max(a, b);
+    case Combine::GeometricMean:
+      return rows::sqrt(a * b);
+    case Combine::Average:
+      return 0.5f * (a + b);
+    case Combine::Minimum:
+      return std::min(a, b);
+    case Combine::Multiply:
+      return a * b;
+    case Combine::Maximum:
+      return std::max(a, b);
   }
   return 0;
 }
@@ -130,7 +135,8 @@ void rememberPoints(PairData& pair, const BodyData& a, const BodyData& b, Vec3 f
 /// A contact that begins fast enough along the surface that friction cannot hold it within the step begins as a slide.
 void beginSlide(const WorldData& world, const StepData& step, PairData& pair, const BodyData& a, const BodyData& b) {
   const Vec3 armA = pair.manifold.points[0].position, armB = armA - toFloat(b.position - a.position);
-  const Vec3 motion = b.linearVelocity + cross(b.angularVelocity, armB) - a.linearVelocity - cross(a.angularVelocity, armA);
+  const Vec3 motion =
+      b.linearVelocity + cross(b.angularVelocity, armB) - a.linearVelocity - cross(a.angularVelocity, armA);
   const Vec3 slip = motion - pair.normal * dot(motion, pair.normal);
   pair.slides = length(slip) > pair.staticFriction * length(world.def.gravity) * step.h ? 2 : 0;
 }

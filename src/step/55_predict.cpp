@@ -2,8 +2,8 @@
 //
 // The start decides how near the frozen friction cones and active sets of the first iteration are to the truth. A body
 // that its contacts and joints carry starts from its velocity (at rest: from rest); one that they barely touch starts
-// from free motion; one whose contacts all slide starts from the acceleration that it had, because near the threshold of
-// sliding the majorised friction rows give way only slowly.
+// from free motion; one whose contacts all slide starts from the acceleration that it had, because near the threshold
+// of sliding the majorised friction rows give way only slowly.
 #include "step/begin_rows.h"
 #include "step/free_motion.h"
 

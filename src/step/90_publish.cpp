@@ -73,9 +73,8 @@ void publishJoints(WorldData& world, const StepData& step) {
     JointData& joint = world.joints[step.tetJoint[lane]];
     const rows::TetVolume<float> rows = step.tets[lane / kTile].get(lane % kTile);
     joint.lambda[0] = rows.lambda;
-    joint.reaction = {fromRow((cross(rows.ac, rows.ad) + cross(rows.ad, rows.ab) + cross(rows.ab, rows.ac)) *
-                              (rows.lambda / 6)),
-                      {}};
+    joint.reaction = {
+        fromRow((cross(rows.ac, rows.ad) + cross(rows.ad, rows.ab) + cross(rows.ab, rows.ac)) * (rows.lambda / 6)), {}};
   }
 }
 

@@ -79,8 +79,8 @@ void addJoints(const WorldData& world, StepData& step, BatchRange& batch) {
 }
 
 void resizeRows(StepData& step, uint32_t rows) {
-  for (auto* array : {&step.d, &step.target, &step.mass, &step.invMass, &step.diagonal, &step.gradient, &step.x, &step.r,
-                      &step.z, &step.p, &step.q})
+  for (auto* array : {&step.d, &step.target, &step.mass, &step.invMass, &step.diagonal, &step.gradient, &step.x,
+                      &step.r, &step.z, &step.p, &step.q})
     array->assign(size_t(8) * rows, 0.0f);
   step.hessian.assign(size_t(kHessianRow) * rows, 0.0f);
   step.inverse.resize(rows / kTile);
@@ -146,8 +146,8 @@ BatchView StepData::view(size_t index) {
   v.x = x.data() + at, v.r = r.data() + at, v.z = z.data() + at, v.p = p.data() + at, v.q = q.data() + at;
   v.contacts = {contacts.data() + b.contactTile, contactRow[0].data() + b.contactTile * kTile,
                 contactRow[1].data() + b.contactTile * kTile, b.contactTiles};
-  v.balls = {balls.data() + b.ballTile, ballRow[0].data() + b.ballTile * kTile,
-             ballRow[1].data() + b.ballTile * kTile, b.ballTiles};
+  v.balls = {balls.data() + b.ballTile, ballRow[0].data() + b.ballTile * kTile, ballRow[1].data() + b.ballTile * kTile,
+             b.ballTiles};
   v.fixed = {fixed.data() + b.fixedTile, fixedRow[0].data() + b.fixedTile * kTile,
              fixedRow[1].data() + b.fixedTile * kTile, b.fixedTiles};
   v.op = op.data() + b.contactTile + b.ballTile + b.fixedTile;

@@ -19,8 +19,8 @@ float normalBias(const WorldData& world, const StepData& step, float separation)
 rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& step, PairData& pair, int i) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   PointMemory& memory = pair.points[i];
-  const Vec3 slip = rotate(a.rotation, memory.anchorA) - rotate(b.rotation, memory.anchorB) -
-                    toFloat(b.position - a.position);
+  const Vec3 slip =
+      rotate(a.rotation, memory.anchorA) - rotate(b.rotation, memory.anchorB) - toFloat(b.position - a.position);
   // The force of an impact is no guess for the step after it.
   if (memory.rebound > 0) memory.lambda = {};
   const float leak = step.solve.contactLeak;

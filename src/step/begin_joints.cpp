@@ -10,10 +10,10 @@ namespace {
 constexpr float kJointFactor = 1000;  ///< rho = this / (w h^2) for rows that no tree solves
 
 struct Side {
-  rows::V3<float> arm{0, 0, 0};    ///< world axes; zero of the world
-  Vec3d anchor;                    ///< world
+  rows::V3<float> arm{0, 0, 0};      ///< world axes; zero of the world
+  Vec3d anchor;                      ///< world
   rows::Q4<float> axes{1, 0, 0, 0};  ///< joint frame to world
-  float invMass = 0, turning = 0;  ///< turning: mean inverse inertia across the arm
+  float invMass = 0, turning = 0;    ///< turning: mean inverse inertia across the arm
   rows::Sym3<float> invInertia{};
 };
 
@@ -34,21 +34,23 @@ Side sideOf(const WorldData& world, const JointData& joint, int i) {
   side.invInertia = rotated(toRow(body.invInertia), toRow(body.rotation));
   const float trace = side.invInertia.xx + side.invInertia.yy + side.invInertia.zz;
   const float size = dot(side.arm, side.arm);
-  if ((body.locks >> 3) == 7) side.invInertia = {};
-  else side.turning = 0.5f * (trace - (size > 0 ? dot(side.arm, side.invInertia * side.arm) / size : trace / 3));
+  if ((body.locks >> 3) == 7)
+    side.invInertia = {};
+  else
+    side.turning = 0.5f * (trace - (size > 0 ? dot(side.arm, side.invInertia * side.arm) / size : trace / 3));
   return side;
 }
 
 /// How far the arms in J go from the start of the step to its end: by the joint's own stability number
 /// chi = h^2 |F| |r| w, whose limit for the symplectic choice (0) is 4.
 float armBlend(const StepData& step, const Side& a, const Side& b, float force) {
-  const float chi = step.h * step.h * force *
-                    std::max(rows::length(a.arm) * a.turning, rows::length(b.arm) * b.turning);
+  const float chi =
+      step.h * step.h * force * std::max(rows::length(a.arm) * a.turning, rows::length(b.arm) * b.turning);
   return 0.5f * std::clamp((chi - 1) / 3, 0.0f, 1.0f);
 }
 
-/// The part of a violation that this step corrects; no faster than allowed, so that parts far from where their joint wants
-/// them are drawn together and not shot.
+/// The part of a violation that this step corrects; no faster than allowed, so that parts far from where their joint
+/// wants them are drawn together and not shot.
 rows::V3<float> corrected(const StepData& step, const rows::V3<float>& violation, float speed) {
   const rows::V3<float> part = violation * (1 - step.alpha);
   const float size = length(part), most = speed * step.h;
@@ -62,7 +64,8 @@ rows::FixedJoint<float> jointRows(const WorldData& world, const StepData& step, 
   const float speed = world.def.maxDepenetrationSpeed;
   rows.ball.bias = corrected(step, toRow(a.anchor - b.anchor), speed);
   rows.ball.lambda = {joint.lambda[0], joint.lambda[1], joint.lambda[2]};
-  rows.ball.tau = world.def.jointArmBlend >= 0 ? world.def.jointArmBlend : armBlend(step, a, b, length(rows.ball.lambda));
+  rows.ball.tau =
+      world.def.jointArmBlend >= 0 ? world.def.jointArmBlend : armBlend(step, a, b, length(rows.ball.lambda));
   const float w = a.invMass + b.invMass + a.turning * dot(a.arm, a.arm) + b.turning * dot(b.arm, b.arm);
   rows.ball.k = w > 0 ? kJointFactor / (w * step.h * step.h) : 0;
   if (joint.type != JointType::Fixed) return rows;
@@ -125,8 +128,7 @@ void fillJoints(const WorldData& world, StepData& step) {
     step.tets[lane / kTile].set(lane % kTile, rows);
   }
   for (uint32_t i = 0; i < step.forestCount; ++i)
-    for (TreeJoint& joint : step.forests[i].joints)
-      joint.rows = jointRows(world, step, world.joints[joint.slot]);
+    for (TreeJoint& joint : step.forests[i].joints) joint.rows = jointRows(world, step, world.joints[joint.slot]);
 }
 
 }  // namespace avbd

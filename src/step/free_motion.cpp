@@ -37,8 +37,7 @@ FreeMotion freeMotion(const BodyData& body, Vec3 gravity, float h) {
     free.angularMomentum = turnedProduct(body.inertia, body.rotation, free.turn * (1 / h));
     return free;
   }
-  free.angularMomentum =
-      (turnedProduct(body.inertia, body.rotation, body.angularVelocity) + body.torque * h) * keep;
+  free.angularMomentum = (turnedProduct(body.inertia, body.rotation, body.angularVelocity) + body.torque * h) * keep;
   Vec3 spin = body.angularVelocity;
   for (int i = 0; i < 2; ++i) {
     const Quat middle = quatFromVector(spin * (0.5f * h)) * body.rotation;

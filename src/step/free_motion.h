@@ -12,8 +12,8 @@ struct FreeMotion {
   Vec3 turn;             ///< [rad] rotation vector
 };
 
-/// exp(-x), of x within 0 .. 20: by a (2,2) Pade approximant of exp(-x / 2^n) squared n times; own arithmetic, because libm
-/// differs between platforms.
+/// exp(-x), of x within 0 .. 20: by a (2,2) Pade approximant of exp(-x / 2^n) squared n times; own arithmetic, because
+/// libm differs between platforms.
 float decay(float x);
 
 /// Gravity, user forces and damping; the rotation by the midpoint rule, which keeps the angular momentum.

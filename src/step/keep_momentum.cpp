@@ -8,8 +8,8 @@ namespace avbd {
 namespace {
 
 struct Rigid {
-  Vec3d center;                  ///< of mass, at the start of the step
-  rows::V3<float> shift, turn;   ///< rigid motion that the island has too much
+  Vec3d center;                 ///< of mass, at the start of the step
+  rows::V3<float> shift, turn;  ///< rigid motion that the island has too much
 };
 
 Vec3d centerOf(const WorldData& world, const StepData& step, const BatchRange& batch, const IslandRange& island) {

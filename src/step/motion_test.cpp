@@ -90,7 +90,8 @@ TEST(Motion, DampingMayBeEnormous) {
                                          .linearDamping = 1e6f,
                                          .angularDamping = 1e6f});
   run(world, 10);
-  EXPECT_EQ(world.velocity(id), Velocity{});
+  EXPECT_LT(length(world.velocity(id).linear), 1e-8f);
+  EXPECT_LT(length(world.velocity(id).angular), 1e-8f);
 }
 
 TEST(Motion, SpeedsStayWithinTheirLimits) {
@@ -248,8 +249,6 @@ TEST(Motion, LockedBodyHoldsWhatHangsOnIt) {
     const JointId joint = world.create(
         BallJoint{.bodyA = top, .bodyB = bottom, .frameA = {{0, -0.5, 0}, {}}, .frameB = {{0, 0.5, 0}, {}}});
     run(world, 120);
-    if (!lockedFirst && world.gap(joint) > 0.1)
-      GTEST_SKIP() << "a body with locked axes drops what hangs on it where it was made later: its tree does not hold";
     EXPECT_LT(world.gap(joint), 1e-3) << lockedFirst;
     EXPECT_NEAR(world.reaction(joint).force.y, -9.81f * world.mass(bottom), 5) << lockedFirst;
   }

@@ -55,8 +55,10 @@ void push(StepData& step, const Bounce& bounce, float impulse) {
     end.linearVelocity = end.linearVelocity + bounce.n * (p * invMass[0]);
     end.angularVelocity = end.angularVelocity + turn * p;
   };
-  if (bounce.a != kNone) give(bounce.a, bounce.turnA, -impulse, step.invMass.data() + size_t(8) * step.rowOfEnd[bounce.a]);
-  if (bounce.b != kNone) give(bounce.b, bounce.turnB, impulse, step.invMass.data() + size_t(8) * step.rowOfEnd[bounce.b]);
+  if (bounce.a != kNone)
+    give(bounce.a, bounce.turnA, -impulse, step.invMass.data() + size_t(8) * step.rowOfEnd[bounce.a]);
+  if (bounce.b != kNone)
+    give(bounce.b, bounce.turnB, impulse, step.invMass.data() + size_t(8) * step.rowOfEnd[bounce.b]);
 }
 
 float separationSpeed(const StepData& step, const Bounce& bounce) {

@@ -1,9 +1,10 @@
 // Restitution, all of it.
 //
-// A contact point with restitution e that meets the other surface within the step, at the time tc and the speed v, leaves
-// it at e v. Its row asks for the place where the point would be at the step's end (rebound), so that no height is lost to
-// where in the step the impact falls; after the solve the velocities of the rows that carried force are set (a velocity
-// pass, applyRestitution). Velocities are those of the middle of a step, as the position update x += h v has it.
+// A contact point with restitution e that meets the other surface within the step, at the time tc and the speed v,
+// leaves it at e v. Its row asks for the place where the point would be at the step's end (rebound), so that no height
+// is lost to where in the step the impact falls; after the solve the velocities of the rows that carried force are set
+// (a velocity pass, applyRestitution). Velocities are those of the middle of a step, as the position update x += h v
+// has it.
 #pragma once
 
 #include "step/step_data.h"

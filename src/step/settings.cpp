@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kCorrection = 0.05f;  ///< 1 - alpha: share of a violation corrected in a reference step
 constexpr float kLeak = 0.01f;        ///< share of a contact multiplier that each reference iteration forgets
-constexpr float kJointLeak = 0.001f;   ///< the same of joints that no tree holds
+constexpr float kJointLeak = 0.001f;  ///< the same of joints that no tree holds
 constexpr float kSlop = 0.001f;       ///< of the length unit
 constexpr float kLoadDepth = 0.005f;  ///< of the length unit: without gravity
 constexpr int kKrylovIterations = 8;

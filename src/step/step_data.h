@@ -7,8 +7,8 @@
 #include "base/aligned.h"
 #include "solve/backend.h"
 #include "solve/krylov.h"
-#include "step/free_motion.h"
 #include "solve/sweep.h"
+#include "step/free_motion.h"
 #include "world/world_data.h"
 
 namespace avbd {
@@ -18,7 +18,7 @@ struct Island {
   uint32_t bodyBegin = 0, bodyCount = 0;    ///< in StepData::order
   uint32_t pairBegin = 0, pairCount = 0;    ///< in StepData::islandPairs
   uint32_t jointBegin = 0, jointCount = 0;  ///< in StepData::islandJoints
-  float mass = 0;  ///< [kg]
+  float mass = 0;                           ///< [kg]
   bool floating = true;
 };
 
@@ -54,10 +54,10 @@ struct ForestEdge {
 };
 
 struct ForestScratch {
-  std::vector<uint32_t> set;     ///< union-find over the rows of a batch and the world
-  std::vector<uint32_t> first;   ///< by row: its first edge
+  std::vector<uint32_t> set;    ///< union-find over the rows of a batch and the world
+  std::vector<uint32_t> first;  ///< by row: its first edge
   std::vector<ForestEdge> edges;
-  std::vector<int32_t> nodeOf;   ///< by row
+  std::vector<int32_t> nodeOf;  ///< by row
 };
 
 /// Colours of the dynamic bodies, and what finding them needs; empty unless the block sweep runs.
@@ -71,40 +71,40 @@ struct Coloring {
 };
 
 struct StepData {
-  float h = 0;         ///< [s] of a substep
-  float alpha = 0;     ///< share of a violation at the start of the step that a row keeps
-  float slop = 0;      ///< [m] depth at which contacts come to rest
-  float loadDepth = 0; ///< [m] at which a loaded row holds its load
+  float h = 0;          ///< [s] of a substep
+  float alpha = 0;      ///< share of a violation at the start of the step that a row keeps
+  float slop = 0;       ///< [m] depth at which contacts come to rest
+  float loadDepth = 0;  ///< [m] at which a loaded row holds its load
   SolveSettings solve;
   const Backend* backend = nullptr;
 
   std::vector<BodyData> bodiesBefore;  ///< the whole step, where substeps may fail
 
   // 10_pairs
-  std::vector<uint32_t> moved;      ///< shapes that left their fat bounds
+  std::vector<uint32_t> moved;  ///< shapes that left their fat bounds
   std::vector<uint64_t> newKeys;
   std::vector<PairData> mergedPairs;
 
   // 30_islands
-  std::vector<uint32_t> parent;       ///< union-find, by body slot
-  std::vector<uint32_t> islandOf;     ///< by body slot
-  std::vector<uint32_t> order;        ///< dynamic body slots, island by island
+  std::vector<uint32_t> parent;    ///< union-find, by body slot
+  std::vector<uint32_t> islandOf;  ///< by body slot
+  std::vector<uint32_t> order;     ///< dynamic body slots, island by island
   std::vector<Island> islands;
-  std::vector<uint32_t> islandPairs;  ///< pairs with points, island by island, by key
-  std::vector<uint32_t> islandJoints; ///< joint slots
+  std::vector<uint32_t> islandPairs;   ///< pairs with points, island by island, by key
+  std::vector<uint32_t> islandJoints;  ///< joint slots
   std::vector<BatchRange> batches;
-  std::vector<uint32_t> rowOf;        ///< by body slot: row within its batch; static bodies: kNone
-  std::vector<uint32_t> globalRow;    ///< by body slot: row over all batches, of dynamic bodies
-  std::vector<uint32_t> kinematic;    ///< slots
+  std::vector<uint32_t> rowOf;           ///< by body slot: row within its batch; static bodies: kNone
+  std::vector<uint32_t> globalRow;       ///< by body slot: row over all batches, of dynamic bodies
+  std::vector<uint32_t> kinematic;       ///< slots
   std::vector<uint32_t> kinematicBatch;  ///< by body slot: the last batch that gave it a row
   struct KinematicRow {
     uint32_t body, row;
   };
   std::vector<KinematicRow> kinematicRows;  ///< rows count over all batches
 
-  std::vector<uint8_t> slidesOnly;    ///< by body slot: all its contacts have slid for some steps
-  std::vector<FreeMotion> free;       ///< by StepData::order
-  std::vector<Vec3> carried;          ///< by body slot: force of contacts and joints in the last step [N]
+  std::vector<uint8_t> slidesOnly;  ///< by body slot: all its contacts have slid for some steps
+  std::vector<FreeMotion> free;     ///< by StepData::order
+  std::vector<Vec3> carried;        ///< by body slot: force of contacts and joints in the last step [N]
 
   Coloring coloring;  // 40_colors
 

@@ -19,7 +19,7 @@ struct BodyData {
   Vec3d position;  ///< of the centre of mass
   Quat rotation;   ///< body to world
   Vec3 linearVelocity, angularVelocity;
-  Vec3 acceleration;  ///< of the centre of mass in the last step
+  Vec3 acceleration;            ///< of the centre of mass in the last step
   Vec3 force, torque;           ///< given by the user for the next step
   Vec3 center;                  ///< centre of mass in the body's frame
   float mass = 0;               ///< 0 for static and kinematic

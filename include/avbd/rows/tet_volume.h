@@ -1,8 +1,8 @@
 // Volume of a tetrahedron over four blocks: one row.
 //
-// C = (b - a) . ((c - a) x (d - a)) / 6 - V0 at the current positions, as C_start plus the change; J is its exact gradient:
-// J_b = (c - a) x (d - a) / 6, J_c = (d - a) x (b - a) / 6, J_d = (b - a) x (c - a) / 6, J_a = -(J_b + J_c + J_d).
-// Left out: the second derivative of C.
+// C = (b - a) . ((c - a) x (d - a)) / 6 - V0 at the current positions, as C_start plus the change; J is its exact
+// gradient: J_b = (c - a) x (d - a) / 6, J_c = (d - a) x (b - a) / 6, J_d = (b - a) x (c - a) / 6, J_a = -(J_b + J_c +
+// J_d). Left out: the second derivative of C.
 #pragma once
 
 #include <avbd/rows/row.h>
