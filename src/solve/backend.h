@@ -45,9 +45,17 @@ const Backend& backend(int width);
 int widestLane();
 bool laneWidthRuns(int width);
 
-namespace w1 { extern const Backend kBackend; }
-namespace w4 { extern const Backend kBackend; }
-namespace w8 { extern const Backend kBackend; }
-namespace w16 { extern const Backend kBackend; }
+namespace w1 {
+extern const Backend kBackend;
+}
+namespace w4 {
+extern const Backend kBackend;
+}
+namespace w8 {
+extern const Backend kBackend;
+}
+namespace w16 {
+extern const Backend kBackend;
+}
 
 }  // namespace avbd

@@ -126,7 +126,8 @@ AVBD_INLINE void scatterNodes(float* array, int stride, const TetTiles& tets, ui
     for (int k = 0; k < K; ++k) lane::store(lanes[i][k], value[i][k]);
   for (uint32_t l = 0; l < N; ++l)
     for (int i = 0; i < 4; ++i)
-      for (int k = 0; k < K; ++k) array[size_t(tets.node[i][at + l]) * static_cast<size_t>(stride) + k] += lanes[i][k][l];
+      for (int k = 0; k < K; ++k)
+        array[size_t(tets.node[i][at + l]) * static_cast<size_t>(stride) + k] += lanes[i][k][l];
 }
 
 void stampTets(const BatchView& v, bool dual) {
@@ -279,7 +280,8 @@ float dotRows(const float* a, const float* b, uint32_t begin, uint32_t end) {
   uint32_t i = 8 * begin;
   for (; i + 16 <= 8 * end; i += 16)
     for (int k = 0; k < 16; k += N)
-      lane::store(sum + k, lane::load<R>(sum + k) + lane::loadUnaligned<R>(a + i + k) * lane::loadUnaligned<R>(b + i + k));
+      lane::store(sum + k,
+                  lane::load<R>(sum + k) + lane::loadUnaligned<R>(a + i + k) * lane::loadUnaligned<R>(b + i + k));
   for (int k = 0; i < 8 * end; ++i, ++k) sum[k] += a[i] * b[i];
   for (int half = 8; half > 0; half /= 2)
     for (int k = 0; k < half; ++k) sum[k] += sum[k + half];
@@ -307,7 +309,7 @@ void scaleAdd(float* y, const float* x, float s, uint32_t begin, uint32_t end) {
 namespace avbd::AVBD_LANES_NAMESPACE {
 
 extern const Backend kBackend;
-const Backend kBackend = {N,        prepareContacts, beginIteration, stampRows, updateRows, factor,     precondition,
+const Backend kBackend = {N,        prepareContacts, beginIteration, stampRows, updateRows,   factor,     precondition,
                           multiply, dotRows,         addScaled,      scaleAdd,  stageRecords, stampColor, solveColor};
 
 }  // namespace avbd::AVBD_LANES_NAMESPACE

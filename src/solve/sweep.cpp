@@ -9,12 +9,11 @@ void solveSweep(const BatchView& view, const Backend& backend, const SolveSettin
                 SweepPlan& plan) {
   plan.build(view, colors);
   const SweepView sweep = plan.view();
-  const size_t count = plan.colors().size();
   for (int i = 0; i < settings.iterations; ++i) {
     backend.stageRecords(view, sweep, settings, i > 0);
-    for (size_t c = 0; c < count; ++c) {
-      // To and fro, so that neither end of a stack is always the last to hear.
-      const SweepColor& color = plan.colors()[i % 2 == 0 ? c : count - 1 - c];
+    // Always in the same order. To and fro, the last colour would be the next iteration's first, where little has moved
+    // since: with the few colours of a pile that wastes a good part of the work (docs/performance.md).
+    for (const SweepColor& color : plan.colors()) {
       backend.stampColor(view, sweep, color);
       if (color.lockedCount) applyLocks(plan.lockedIn(view, color));
       backend.solveColor(view, sweep, color);

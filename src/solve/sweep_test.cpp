@@ -120,13 +120,13 @@ void moveMultipliers(TestBatch& batch, const SolveSettings& s) {
   }
 }
 
-/// The method in words: colours to and fro, multipliers between the iterations.
+/// The method in words: colour after colour, multipliers between the iterations.
 void sweepSlowly(Company& c, const SolveSettings& s) {
   for (int i = 0; i < s.iterations; ++i) {
     if (i > 0) moveMultipliers(c.batch, s);
     for (uint32_t n = 0; n < c.colors; ++n)
       for (uint32_t body = 0; body < c.batch.bodies(); ++body)
-        if (c.color[body] == (i % 2 == 0 ? n : c.colors - 1 - n)) moveAlone(c.batch, body);
+        if (c.color[body] == n) moveAlone(c.batch, body);
   }
 }
 

@@ -41,6 +41,18 @@ void joinBodies(const WorldData& world, StepData& step) {
   });
 }
 
+/// Turns the islands' counts into the beginnings of consecutive ranges and clears them, to be counted again by who
+/// fills the ranges. Returns the sum.
+uint32_t layOut(std::vector<Island>& islands, uint32_t Island::*begin, uint32_t Island::*count) {
+  uint32_t next = 0;
+  for (Island& island : islands) {
+    island.*begin = next;
+    next += island.*count;
+    island.*count = 0;
+  }
+  return next;
+}
+
 /// Numbers the islands and lists their bodies, both in ascending order.
 void listBodies(const WorldData& world, StepData& step) {
   step.islandOf.assign(world.bodies.size(), kNone);
@@ -57,24 +69,13 @@ void listBodies(const WorldData& world, StepData& step) {
     step.islandOf[slot] = step.islandOf[root];
     ++step.islands[step.islandOf[slot]].bodyCount;
   });
-  uint32_t begin = 0;
-  for (Island& island : step.islands) {
-    island.bodyBegin = begin;
-    begin += island.bodyCount;
-    island.bodyCount = 0;
-  }
-  step.order.resize(begin);
+  step.order.resize(layOut(step.islands, &Island::bodyBegin, &Island::bodyCount));
   world.bodyIds.forEach([&](uint32_t slot) {
     if (step.islandOf[slot] == kNone) return;
     Island& island = step.islands[step.islandOf[slot]];
     step.order[island.bodyBegin + island.bodyCount++] = slot;
     island.mass += world.bodies[slot].mass;
   });
-}
-
-uint32_t islandOfPair(const StepData& step, const PairData& pair) {
-  const uint32_t a = step.islandOf[pair.bodyA];
-  return a != kNone ? a : step.islandOf[pair.bodyB];
 }
 
 uint32_t islandOfJoint(const StepData& step, const JointData& joint) {
@@ -90,13 +91,7 @@ void listPairs(const WorldData& world, StepData& step) {
     ++island.pairCount;
     if (!isDynamic(world, pair.bodyA) || !isDynamic(world, pair.bodyB)) island.floating = false;
   }
-  uint32_t begin = 0;
-  for (Island& island : step.islands) {
-    island.pairBegin = begin;
-    begin += island.pairCount;
-    island.pairCount = 0;
-  }
-  step.islandPairs.resize(begin);
+  step.islandPairs.resize(layOut(step.islands, &Island::pairBegin, &Island::pairCount));
   for (uint32_t i = 0; i < world.pairs.size(); ++i) {
     if (world.pairs[i].pointCount == 0) continue;
     Island& island = step.islands[islandOfPair(step, world.pairs[i])];
@@ -113,13 +108,7 @@ void listJoints(const WorldData& world, StepData& step) {
     for (int i = 0; i < bodies; ++i)
       if (!isDynamic(world, joint.body[i])) island.floating = false;
   });
-  uint32_t begin = 0;
-  for (Island& island : step.islands) {
-    island.jointBegin = begin;
-    begin += island.jointCount;
-    island.jointCount = 0;
-  }
-  step.islandJoints.resize(begin);
+  step.islandJoints.resize(layOut(step.islands, &Island::jointBegin, &Island::jointCount));
   world.jointIds.forEach([&](uint32_t slot) {
     Island& island = step.islands[islandOfJoint(step, world.joints[slot])];
     step.islandJoints[island.jointBegin + island.jointCount++] = slot;

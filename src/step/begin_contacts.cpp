@@ -44,16 +44,11 @@ rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& 
   return p;
 }
 
-uint32_t islandOf(const StepData& step, const PairData& pair) {
-  const uint32_t a = step.islandOf[pair.bodyA];
-  return a != kNone ? a : step.islandOf[pair.bodyB];
-}
-
 rows::Contact<float> contactRows(const WorldData& world, const StepData& step, PairData& pair) {
   rows::Contact<float> c{};
   c.n = toRow(pair.normal), c.t1 = toRow(pair.t1), c.t2 = toRow(pair.t2);
   c.loadStiffness = 1 / step.loadDepth;
-  c.stiffest = 2 * step.islands[islandOf(step, pair)].mass / (step.h * step.h);
+  c.stiffest = 2 * step.islands[islandOfPair(step, pair)].mass / (step.h * step.h);
   Vec3 reference;
   for (int i = 0; i < pair.pointCount; ++i) reference = reference + pair.manifold.points[i].position;
   reference = reference * (1.0f / static_cast<float>(pair.pointCount));

@@ -144,6 +144,12 @@ struct StepData {
   BatchView view(size_t batch);
 };
 
+/// Of a pair with at least one dynamic body.
+inline uint32_t islandOfPair(const StepData& step, const PairData& pair) {
+  const uint32_t a = step.islandOf[pair.bodyA];
+  return a != kNone ? a : step.islandOf[pair.bodyB];
+}
+
 inline constexpr float kSpeculative = 0.005f;  ///< of the length unit: margin within which contacts are found
 
 // The stages, in order.
