@@ -138,7 +138,8 @@ void beginSlide(const WorldData& world, const StepData& step, PairData& pair, co
   const Vec3 motion =
       b.linearVelocity + cross(b.angularVelocity, armB) - a.linearVelocity - cross(a.angularVelocity, armA);
   const Vec3 slip = motion - pair.normal * dot(motion, pair.normal);
-  pair.slides = length(slip) > pair.staticFriction * length(world.def.gravity) * step.h ? 2 : 0;
+  pair.slides = 0;
+  pair.landedSliding = length(slip) > pair.staticFriction * length(world.def.gravity) * step.h;
 }
 
 }  // namespace
@@ -154,6 +155,7 @@ void findContacts(WorldData& world, StepData& step) {
     if (pair.manifold.count == 0) {
       pair.pointCount = 0;
       pair.slides = 0;
+      pair.landedSliding = false;
       continue;
     }
     combineMaterials(pair, shapeA.material, shapeB.material);

@@ -46,6 +46,7 @@ void publishContacts(WorldData& world, const StepData& step) {
       if (point.sticks) slides = false;
     }
     pair.slides = slides ? static_cast<uint8_t>(std::min(pair.slides + 1, 255)) : uint8_t{0};
+    pair.landedSliding = pair.landedSliding && slides;
   }
 }
 

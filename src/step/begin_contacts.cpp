@@ -36,7 +36,7 @@ rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& 
   }
   p.bias1 = (1 - step.alpha) * dot(slip, pair.t1);
   p.bias2 = (1 - step.alpha) * dot(slip, pair.t2);
-  p.mu = pair.slides > 1 ? pair.friction : pair.staticFriction;
+  p.mu = pair.slides > 1 || pair.landedSliding ? pair.friction : pair.staticFriction;
   p.lambdaN = leak * memory.lambda.x;
   p.lambda1 = leak * memory.lambda.y;
   p.lambda2 = leak * memory.lambda.z;

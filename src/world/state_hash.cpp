@@ -32,6 +32,7 @@ void add(Hash64& hash, const PairData& pair) {
   hash.value(pair.t2);
   hash.value(pair.pointCount);
   hash.value(pair.slides);
+  hash.value(static_cast<uint8_t>(pair.landedSliding));
   for (int i = 0; i < pair.pointCount; ++i) add(hash, pair.points[i]);
 }
 

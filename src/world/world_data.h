@@ -83,7 +83,8 @@ struct PairData {
   PointMemory points[kMaxManifoldPoints];
   int32_t pointCount = 0;                                   ///< of `points`: those of the last step
   float staticFriction = 0, friction = 0, restitution = 0;  ///< combined
-  uint8_t slides = 0;  ///< steps since any point stuck, saturating: from 2 on friction is dynamic
+  uint8_t slides = 0;          ///< steps since any point stuck, saturating: from 2 on friction is dynamic
+  bool landedSliding = false;  ///< friction is dynamic from the first step on, until a point sticks
   uint64_t key() const { return uint64_t(shapeA) << 32 | shapeB; }
 };
 
