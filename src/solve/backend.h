@@ -1,6 +1,7 @@
 // The solver's kernels as a table of functions, one table a lane width. All give the same bits.
 #pragma once
 
+#include "base/lane_width.h"
 #include "solve/batch.h"
 
 namespace avbd {
@@ -41,9 +42,6 @@ struct Backend {
 
 /// Table for a width that this processor runs: 1, 4, 8, 16.
 const Backend& backend(int width);
-/// Widest that this processor runs.
-int widestLane();
-bool laneWidthRuns(int width);
 
 namespace w1 {
 extern const Backend kBackend;

@@ -38,8 +38,6 @@ void refit(WorldData& world, StepData& step, uint32_t slot, bool always) {
 
 void refitMoved(WorldData& world, StepData& step) {
   step.moved.clear();
-  std::sort(world.unpaired.begin(), world.unpaired.end());
-  world.unpaired.erase(std::unique(world.unpaired.begin(), world.unpaired.end()), world.unpaired.end());
   for (const uint32_t slot : world.unpaired)
     if (slot < world.shapes.size() && world.shapes[slot].proxy >= 0) refit(world, step, slot, true);
   world.unpaired.clear();

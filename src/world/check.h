@@ -49,8 +49,6 @@ Pose checkedPose(const Path& path, const Pose& value, double maxPosition);
 
 // Definitions. `unit` is WorldDef::lengthUnit.
 void checkWorld(const WorldDef& def);
-/// Whether this processor runs lanes of this width.
-bool simdWidthRuns(int width);
 void checkGeometry(const Path& path, const Geometry& geometry, float unit);
 void checkMaterial(const Path& path, const Material& material);
 /// Returns the shape with its rotation made exact.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "base/lane_width.h"
 #include "world/bodies.h"
 #include "world/joints.h"
 
@@ -218,12 +219,12 @@ TEST(CheckWorld, EveryField) {
   refuse({.simdWidth = 2}, "simdWidth", "2", "0, 1, 4, 8 or 16");
   refuse({.simdWidth = -1}, "simdWidth", "-1", "0, 1, 4, 8 or 16");
   for (const int width : {8, 16}) {
-    if (simdWidthRuns(width)) continue;
+    if (laneWidthRuns(width)) continue;
     refuse({.simdWidth = width}, "simdWidth", toText(width), "this processor");
   }
-  EXPECT_TRUE(simdWidthRuns(1));
-  EXPECT_TRUE(simdWidthRuns(4));
-  EXPECT_FALSE(simdWidthRuns(0));
+  EXPECT_TRUE(laneWidthRuns(1));
+  EXPECT_TRUE(laneWidthRuns(4));
+  EXPECT_FALSE(laneWidthRuns(0));
 }
 
 class CheckJoint : public testing::Test {

@@ -1,22 +1,9 @@
 // Settings of a world (check.h).
+#include "base/lane_width.h"
 #include "world/check.h"
 #include "world/limits.h"
 
 namespace avbd {
-
-bool simdWidthRuns(int width) {
-  if (width == 1 || width == 4) return true;
-#if defined(__x86_64__)
-  if (width == 8) return __builtin_cpu_supports("avx2");
-  if (width == 16) {
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-           __builtin_cpu_supports("avx512dq");
-  }
-  return false;
-#else
-  return width == 8 || width == 16;
-#endif
-}
 
 void checkWorld(const WorldDef& def) {
   const Path path("WorldDef");
@@ -39,7 +26,7 @@ void checkWorld(const WorldDef& def) {
   if (width != 0 && width != 1 && width != 4 && width != 8 && width != 16) {
     (path / "simdWidth").refuse(toText(width), "must be 0, 1, 4, 8 or 16");
   }
-  if (width != 0 && !simdWidthRuns(width)) {
+  if (width != 0 && !laneWidthRuns(width)) {
     (path / "simdWidth").refuse(toText(width), "must be a width that this processor runs");
   }
 }
