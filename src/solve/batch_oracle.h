@@ -343,4 +343,23 @@ inline DenseSystem systemOf(const TestBatch& batch) {
 /// Unknown `k` (0 .. 5) of a body in an array of body rows.
 inline size_t rowEntry(uint32_t body, size_t k) { return 8 * body + (k < 3 ? k : k + 1); }
 
+/// Stiffness of a step's rows: c = 10 over the compliance that a kilogram has, up to ten times that.
+inline void soften(float& k, Random& random) { k = randomSize(random, 1, 10) * 1e4f; }
+
+inline void addContact(TestBatch& batch, uint32_t a, uint32_t b, Random& random) {
+  rows::Contact<float> c = RandomRows<rows::Contact>::any(random);
+  for (auto& p : c.point)
+    if (p.floorN > 0) soften(p.floorN, random), soften(p.floorT, random), p.lambdaN *= 0.1f;
+  batch.contacts.push_back({a, b, c});
+}
+
+inline void addJoint(TestBatch& batch, uint32_t a, uint32_t b, Random& random) {
+  rows::FixedJoint<float> f = RandomRows<rows::FixedJoint>::any(random);
+  soften(f.ball.k, random), soften(f.kAngular, random);
+  if (random.bits() % 2)
+    batch.fixed.push_back({a, b, f});
+  else
+    batch.balls.push_back({a, b, f.ball});
+}
+
 }  // namespace avbd::oracle

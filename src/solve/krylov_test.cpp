@@ -26,25 +26,6 @@ SolveSettings settings(int iterations, int krylov) {
   return s;
 }
 
-/// Stiffness of a step's rows: c = 10 over the compliance that a kilogram has, up to ten times that.
-void soften(float& k, Random& random) { k = randomSize(random, 1, 10) * 1e4f; }
-
-void addContact(TestBatch& batch, uint32_t a, uint32_t b, Random& random) {
-  rows::Contact<float> c = RandomRows<rows::Contact>::any(random);
-  for (auto& p : c.point)
-    if (p.floorN > 0) soften(p.floorN, random), soften(p.floorT, random), p.lambdaN *= 0.1f;
-  batch.contacts.push_back({a, b, c});
-}
-
-void addJoint(TestBatch& batch, uint32_t a, uint32_t b, Random& random) {
-  rows::FixedJoint<float> f = RandomRows<rows::FixedJoint>::any(random);
-  soften(f.ball.k, random), soften(f.kAngular, random);
-  if (random.bits() % 2)
-    batch.fixed.push_back({a, b, f});
-  else
-    batch.balls.push_back({a, b, f.ball});
-}
-
 /// Adds an island of the bodies from `first` on. Kinematic row 0 is one of its neighbours.
 void addIsland(TestBatch& batch, uint32_t first, const IslandCase& c, Random& random) {
   std::vector<uint32_t> rows;

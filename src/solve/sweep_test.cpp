@@ -20,25 +20,6 @@ SolveSettings settings(int iterations) {
   return s;
 }
 
-/// Stiffness of a step's rows: c = 10 over the compliance that a kilogram has, up to ten times that.
-void soften(float& k, Random& random) { k = randomSize(random, 1, 10) * 1e4f; }
-
-void addContact(TestBatch& batch, uint32_t a, uint32_t b, Random& random) {
-  rows::Contact<float> c = RandomRows<rows::Contact>::any(random);
-  for (auto& p : c.point)
-    if (p.floorN > 0) soften(p.floorN, random), soften(p.floorT, random), p.lambdaN *= 0.1f;
-  batch.contacts.push_back({a, b, c});
-}
-
-void addJoint(TestBatch& batch, uint32_t a, uint32_t b, Random& random) {
-  rows::FixedJoint<float> f = RandomRows<rows::FixedJoint>::any(random);
-  soften(f.ball.k, random), soften(f.kAngular, random);
-  if (random.bits() % 2)
-    batch.fixed.push_back({a, b, f});
-  else
-    batch.balls.push_back({a, b, f.ball});
-}
-
 /// An island of `bodies` bodies that hold on to each other, to the static row and to a kinematic one, either way round.
 void addIsland(TestBatch& batch, uint32_t first, uint32_t bodies, Random& random) {
   const auto any = [&] { return first + static_cast<uint32_t>(random.bits() % bodies); };

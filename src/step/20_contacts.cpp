@@ -17,13 +17,17 @@ NearPose nearPose(const BodyData& body, const ShapeData& shape, Vec3d origin) {
   return {toFloat(body.position - origin) + rotate(body.rotation, shape.toMass.p), body.rotation * shape.toMass.q};
 }
 
+/// Smaller half thickness of two bodies; a body without bounded shapes does not count.
+float smallerSize(const BodyData& a, const BodyData& b) {
+  return std::min(a.minExtent > 0 ? a.minExtent : b.minExtent, b.minExtent > 0 ? b.minExtent : a.minExtent);
+}
+
 /// Distance within which contacts are looked for: what the bodies may close in this step, but never a large part of
 /// the smaller one's size.
 float speculativeMargin(const WorldData& world, const BodyData& a, const BodyData& b, float h) {
   const float speed = length(a.linearVelocity - b.linearVelocity) + length(a.angularVelocity) * a.radius +
                       length(b.angularVelocity) * b.radius;
-  const float size = std::min(a.minExtent > 0 ? a.minExtent : kFarAway, b.minExtent > 0 ? b.minExtent : kFarAway);
-  return kSpeculative * world.def.lengthUnit + std::min(speed * h, size);
+  return kSpeculative * world.def.lengthUnit + std::min(speed * h, smallerSize(a, b));
 }
 
 float combined(float a, float b, Combine rule) {
@@ -102,10 +106,6 @@ void turnBasis(PairData& pair) {
   pair.normal = pair.manifold.normal;
   pair.t1 = {t1.x, t1.y, t1.z};
   pair.t2 = {t2.x, t2.y, t2.z};
-}
-
-float smallerSize(const BodyData& a, const BodyData& b) {
-  return std::min(a.minExtent > 0 ? a.minExtent : b.minExtent, b.minExtent > 0 ? b.minExtent : a.minExtent);
 }
 
 void rememberPoints(PairData& pair, const BodyData& a, const BodyData& b, Vec3 fromAToB) {

@@ -23,12 +23,9 @@ void lockInverse(float* row, uint8_t locks) {
 
 void fillBodies(const WorldData& world, StepData& step) {
   const float h = step.h;
-  step.globalRow.assign(world.bodies.size(), kNone);
   for (const BatchRange& batch : step.batches)
     for (uint32_t i = 0; i < batch.bodies; ++i) {
-      const uint32_t slot = step.order[batch.orderBegin + i];
-      const BodyData& body = world.bodies[slot];
-      step.globalRow[slot] = batch.rowBegin + i;
+      const BodyData& body = world.bodies[step.order[batch.orderBegin + i]];
       const rows::M33<float> turn = rows::toMatrix(toRow(body.rotation));
       const size_t at = size_t(8) * (batch.rowBegin + i);
       // Damping makes a body sluggish for this step: what it damps of a force, the force must bring up, and a body at

@@ -25,9 +25,13 @@ float decay(float x) {
   return y;
 }
 
+Vec3 freeAcceleration(const BodyData& body, Vec3 gravity) {
+  return gravity * body.gravityScale + body.force * (1 / body.mass);
+}
+
 FreeMotion freeMotion(const BodyData& body, Vec3 gravity, float h) {
   FreeMotion free;
-  const Vec3 acceleration = gravity * body.gravityScale + body.force * (1 / body.mass);
+  const Vec3 acceleration = freeAcceleration(body, gravity);
   free.velocity = unlocked((body.linearVelocity + acceleration * h) * decay(body.linearDamping * h), body.locks);
   free.displacement = free.velocity * h;
   const float keep = decay(body.angularDamping * h);

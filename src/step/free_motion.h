@@ -16,6 +16,8 @@ struct FreeMotion {
 /// libm differs between platforms.
 float decay(float x);
 
+/// Of a dynamic body by gravity and the user's force [m/s^2].
+Vec3 freeAcceleration(const BodyData& body, Vec3 gravity);
 /// Gravity, user forces and damping; the rotation by the midpoint rule, which keeps the angular momentum.
 FreeMotion freeMotion(const BodyData& body, Vec3 gravity, float h);
 

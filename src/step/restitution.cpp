@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "step/begin_rows.h"
+#include "step/free_motion.h"
 
 namespace avbd {
 
@@ -13,9 +14,8 @@ constexpr int kPasses = 8;  ///< over the rebounding rows
 
 Vec3 velocityAt(Vec3 linear, Vec3 angular, Vec3 arm) { return linear + cross(angular, arm); }
 
-Vec3 freeAcceleration(const WorldData& world, const BodyData& body) {
-  if (body.type != BodyType::Dynamic) return {};
-  return world.def.gravity * body.gravityScale + body.force * (1 / body.mass);
+Vec3 accelerationOf(const WorldData& world, const BodyData& body) {
+  return body.type == BodyType::Dynamic ? freeAcceleration(body, world.def.gravity) : Vec3{};
 }
 
 Vec3 turning(const StepData& step, uint32_t row, Vec3 torque) {
@@ -29,7 +29,7 @@ void addSide(const WorldData& world, const StepData& step, uint32_t slot, Vec3 a
     bounce.fixedSpeed += sign * dot(bounce.n, velocityAt(body.linearVelocity, body.angularVelocity, arm));
     return;
   }
-  const uint32_t row = step.globalRow[slot];
+  const uint32_t row = step.rowOfEnd[step.endOf[slot]];
   const Vec3 lever = cross(arm, bounce.n);
   const Vec3 turn = turning(step, row, lever);
   bounce.weight += step.invMass[size_t(8) * row] + dot(lever, turn);
@@ -83,7 +83,7 @@ Rebound rebound(const WorldData& world, const StepData& step, const PairData& pa
   const float h = step.h;
   const float approach = dot(pair.normal, velocityAt(a.linearVelocity, a.angularVelocity, armA) -
                                               velocityAt(b.linearVelocity, b.angularVelocity, armB));
-  const float pull = dot(pair.normal, freeAcceleration(world, a) - freeAcceleration(world, b));
+  const float pull = dot(pair.normal, accelerationOf(world, a) - accelerationOf(world, b));
   const float gap = std::max(pair.manifold.points[i].separation, 0.0f);
   const float now = approach + pull * (0.5f * h);  // at the start of the step
   if (!(approach > world.def.restitutionThreshold) || !(now > 0) || gap >= h * (now + 0.5f * pull * h)) return {};

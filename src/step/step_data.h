@@ -94,7 +94,6 @@ struct StepData {
   std::vector<uint32_t> islandJoints;  ///< joint slots
   std::vector<BatchRange> batches;
   std::vector<uint32_t> rowOf;           ///< by body slot: row within its batch; static bodies: kNone
-  std::vector<uint32_t> globalRow;       ///< by body slot: row over all batches, of dynamic bodies
   std::vector<uint32_t> kinematic;       ///< slots
   std::vector<uint32_t> kinematicBatch;  ///< by body slot: the last batch that gave it a row
   struct KinematicRow {
