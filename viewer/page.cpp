@@ -214,6 +214,10 @@ PlainShape plain(const Sphere& s) { return {0, {s.radius, 0, 0}}; }
 PlainShape plain(const Capsule& s) { return {1, {s.radius, s.halfHeight, 0}}; }
 PlainShape plain(const Box& s) { return {2, {s.x, s.y, s.z}}; }
 PlainShape plain(const HalfSpace&) { return {3, {}}; }
+template <class Other>
+PlainShape plain(const Other&) {
+  return {0, {}};
+}
 
 void writeShapes(Head& head, const Recording& r) {
   std::vector<uint32_t> bodies;

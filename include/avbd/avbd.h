@@ -5,8 +5,12 @@
 #include <avbd/error.h>
 #include <avbd/events.h>
 #include <avbd/geometry.h>
+#include <avbd/height_field.h>
+#include <avbd/hull.h>
 #include <avbd/id.h>
 #include <avbd/joint.h>
+#include <avbd/mesh.h>
 #include <avbd/profile.h>
+#include <avbd/query.h>
 #include <avbd/types.h>
 #include <avbd/world.h>

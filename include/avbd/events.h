@@ -1,12 +1,16 @@
-// What happened in the last step: contacts.
+// What happened in the last step: contacts, and what began and ended.
 #pragma once
 
+#include <avbd/geometry.h>
 #include <avbd/id.h>
 #include <avbd/types.h>
 
 #include <array>
+#include <vector>
 
 namespace avbd {
+
+inline constexpr uint32_t kNoElement = 0xffffffffu;
 
 /// One point of a contact after the last step.
 struct ContactPoint {
@@ -17,13 +21,76 @@ struct ContactPoint {
   uint32_t feature;    ///< names the touching features; equal as long as they are the same
 };
 
-/// All points between two shapes.
+/// Up to four points between two shapes that share a normal. Two convex shapes have one contact; a shape on a mesh or
+/// height field has one for each direction in which it is touched.
 struct Contact {
   ShapeId shapeA, shapeB;
   BodyId bodyA, bodyB;
+  /// Triangle of a Mesh or HeightField that the first point is on (mesh.h: sourceTriangle); else kNoElement.
+  uint32_t elementA = kNoElement, elementB = kNoElement;
   Vec3 normal;  ///< unit, from A to B
   int pointCount = 0;
   std::array<ContactPoint, 4> points;
+};
+
+/// Two shapes began or ceased to touch: have, or no longer have, a point that carries force. Ids may be of shapes
+/// destroyed since.
+struct TouchEvent {
+  ShapeId shapeA, shapeB;
+  BodyId bodyA, bodyB;
+};
+
+/// A shape entered or left a trigger. Ids may be of shapes destroyed since.
+struct TriggerEvent {
+  ShapeId trigger, visitor;
+  BodyId triggerBody, visitorBody;
+};
+
+/// Two shapes met faster than WorldDef::hitSpeed.
+struct HitEvent {
+  ShapeId shapeA, shapeB;
+  BodyId bodyA, bodyB;
+  Vec3d position;     ///< world [m]
+  Vec3 normal;        ///< unit, from A to B
+  float speed = 0;    ///< [m/s] > 0, of approach along the normal at the start of the step
+  float impulse = 0;  ///< [N s] along the normal over the step, of all their points
+};
+
+/// A body moved in the last step.
+struct MoveEvent {
+  BodyId body;
+  Pose pose;  ///< of the body's frame
+  uint64_t userData = 0;
+};
+
+/// Everything that happened in the last step (all its substeps), each list ordered by ids. Contacts that persist are
+/// in World::contacts(), with their forces.
+struct Events {
+  std::vector<TouchEvent> begins, ends;
+  std::vector<TriggerEvent> enters, leaves;
+  std::vector<HitEvent> hits;
+  std::vector<MoveEvent> moves;  ///< only with WorldDef::moveEvents
+};
+
+/// A contact about to be solved, as the contact hook sees it. The fields below the line may be changed.
+struct ContactPlan {
+  ShapeId shapeA, shapeB;
+  BodyId bodyA, bodyB;
+  uint32_t elementA = kNoElement, elementB = kNoElement;
+  Vec3 normal;  ///< unit, from A to B
+  int pointCount = 0;
+  std::array<Vec3d, 4> positions;    ///< world [m]
+  std::array<float, 4> separations;  ///< [m]
+  std::array<Vec3, 4> velocities;    ///< of B against A at the points [m/s]
+
+  // ----
+  float staticFriction = 0, friction = 0, restitution = 0;  ///< as in Material
+  float torsionalFriction = 0, rollingFriction = 0;         ///< [m]
+  /// [m/s] at which B's surface shall slide over A's: a conveyor belt. The part along the normal is ignored.
+  Vec3 surfaceVelocity{};
+  /// Factors on the inverse mass and inertia of each body as this contact feels them: 0 makes it immovable to the
+  /// contact, 1 is natural. Finite, 0 .. 1e3. Momentum is kept only where both are equal.
+  float inverseMassScaleA = 1, inverseMassScaleB = 1;
 };
 
 }  // namespace avbd

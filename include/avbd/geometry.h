@@ -5,9 +5,15 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <variant>
+#include <vector>
 
 namespace avbd {
+
+class HullData;
+class MeshData;
+class HeightFieldData;
 
 /// Ball about the shape's origin. radius [m] > 0.
 struct Sphere {
@@ -21,15 +27,57 @@ struct Capsule {
   float halfHeight = 0.5f;
 };
 
+// Shapes with `rounding` are swept by a ball of that radius [m] >= 0: edges become round and all sizes grow by it.
+
 /// Box about the shape's origin with half extents [m], each > 0.
 struct Box {
   float x = 0.5f, y = 0.5f, z = 0.5f;
+  float rounding = 0;
+};
+
+/// Cylinder along the shape's y axis about its origin. radius and halfHeight [m] > 0.
+struct Cylinder {
+  float radius = 0.5f;
+  float halfHeight = 0.5f;
+  float rounding = 0;
+};
+
+/// Cone along the shape's y axis: the base at y = -halfHeight, the tip at y = halfHeight. radius and halfHeight [m] >
+/// 0.
+struct Cone {
+  float radius = 0.5f;
+  float halfHeight = 0.5f;
+  float rounding = 0;
+};
+
+/// Ellipsoid about the shape's origin with half axes [m], each > 0.
+struct Ellipsoid {
+  float x = 0.5f, y = 0.5f, z = 0.5f;
+};
+
+/// Convex hull (hull.h: makeHull). scale: each component finite, not 0, |scale| 1e-3 .. 1e3; negative ones mirror.
+struct Hull {
+  std::shared_ptr<const HullData> data;
+  Vec3 scale{1, 1, 1};
+  float rounding = 0;
 };
 
 /// Everything below the shape's plane y = 0: solid, unbounded. Only for static and kinematic bodies.
 struct HalfSpace {};
 
-using Geometry = std::variant<Sphere, Capsule, Box, HalfSpace>;
+/// Triangles (mesh.h: makeMesh). Only for static and kinematic bodies. scale as for Hull.
+struct Mesh {
+  std::shared_ptr<const MeshData> data;
+  Vec3 scale{1, 1, 1};
+};
+
+/// Terrain (height_field.h: makeHeightField). Only for static and kinematic bodies. scale as for Hull, but positive.
+struct HeightField {
+  std::shared_ptr<const HeightFieldData> data;
+  Vec3 scale{1, 1, 1};
+};
+
+using Geometry = std::variant<Sphere, Capsule, Box, HalfSpace, Cylinder, Cone, Ellipsoid, Hull, Mesh, HeightField>;
 
 /// How the coefficients of two touching materials become one. The rule with the larger value wins.
 enum class Combine : uint8_t { GeometricMean, Average, Minimum, Multiply, Maximum };
@@ -44,6 +92,11 @@ struct Material {
   /// Of two touching shapes the one with the larger priority alone gives friction and restitution; equal priorities
   /// combine (MJCF's rule).
   int32_t frictionPriority = 0;
+  /// [m] >= 0: a contact resists turning about its normal up to this times the normal force (MuJoCo's torsional
+  /// coefficient). Combined as friction is.
+  float torsionalFriction = 0;
+  /// [m] >= 0: a contact resists rolling up to this times the normal force. Combined as friction is.
+  float rollingFriction = 0;
 };
 
 /// Which shapes may touch. Two shapes collide if they share a positive group; never if they share a negative one;
@@ -61,7 +114,13 @@ struct ShapeDef {
   Pose pose{};           ///< in the body's frame
   float density = 1000;  ///< [kg/m^3] >= 0; where BodyDef.mass is given only ratios count. HalfSpace has no mass.
   Material material{};
+  /// Surfaces of a Mesh or HeightField: its triangles' material indices point in here. Empty: all are `material`.
+  std::vector<Material> materials{};
   Filter filter{};
+  bool isTrigger = false;     ///< touches nothing; reports what overlaps it (events.h). No mass.
+  bool contactEvents = true;  ///< begin and end of its contacts are reported; of a pair both must want it
+  bool hitEvents = false;     ///< hits harder than WorldDef::hitSpeed are reported; one of the pair must want it
+  bool contactHook = false;   ///< World's contact hook sees its contacts; one of the pair must want it
   uint64_t userData = 0;
 };
 

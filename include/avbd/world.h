@@ -6,9 +6,12 @@
 #include <avbd/events.h>
 #include <avbd/joint.h>
 #include <avbd/profile.h>
+#include <avbd/query.h>
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +35,8 @@ struct WorldDef {
   /// [m/s] at which bodies that overlap at the start of a step, or are not where their joint wants them, are moved at
   /// most.
   float maxDepenetrationSpeed = 3;
+  float hitSpeed = 1;       ///< [m/s] > 0: approach speed from which a contact is a HitEvent
+  bool moveEvents = false;  ///< list every body that moved in Events::moves
   PrimalSolver primalSolver = PrimalSolver::Krylov;
   int krylovIterations = 0;  ///< conjugate-gradient steps per outer iteration; 0 takes the default, <= 1000
   /// Where joints take their arms: 0 at the step's start (symplectic; unstable under heavy loads), 1 at its end
@@ -149,6 +154,13 @@ class World {
 
   /// Contacts of the last step, ordered by shape ids.
   std::vector<Contact> contacts() const;
+  /// What began, ended and hit in the last step.
+  const Events& events() const;
+  /// Called in every substep for each contact of a shape with contactHook, before it is solved; may change the plan's
+  /// last fields; false refuses the contact for this substep. It must depend on nothing but its argument and the
+  /// user's own constant data, must not touch the world, and must not throw. An empty function removes the hook.
+  void setContactHook(std::function<bool(ContactPlan&)> hook);
+  bool isTrigger(ShapeId id) const;
 
  private:
   struct Impl;

@@ -59,7 +59,7 @@ void World::destroy(ShapeId id) {
 }
 
 BodyId World::body(ShapeId id) const { return impl_->data.bodyIds.id(shapeOf(impl_->data, id, "World::body").body); }
-Geometry World::geometry(ShapeId id) const { return toGeometry(shapeOf(impl_->data, id, "World::geometry").geom); }
+Geometry World::geometry(ShapeId id) const { return shapeOf(impl_->data, id, "World::geometry").geometry; }
 Pose World::localPose(ShapeId id) const { return shapeOf(impl_->data, id, "World::localPose").local; }
 Material World::material(ShapeId id) const { return shapeOf(impl_->data, id, "World::material").material; }
 

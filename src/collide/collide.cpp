@@ -14,16 +14,27 @@
 #include "collide/collide.h"
 
 #include "collide/collide_pairs.h"
+#include "collide/convex.h"
 
 namespace avbd {
 namespace {
 
-constexpr PairFunction kTable[4][4] = {
-    {collideSphereSphere, collideSphereCapsule, collideSphereBox, collideSphereHalfSpace},
-    {nullptr, collideCapsuleCapsule, collideCapsuleBox, collideCapsuleHalfSpace},
-    {nullptr, nullptr, collideBoxBox, collideBoxHalfSpace},
-    {nullptr, nullptr, nullptr, nullptr},
+constexpr PairFunction kTable[3][3] = {
+    {collideSphereSphere, collideSphereCapsule, collideSphereBox},
+    {nullptr, collideCapsuleCapsule, collideCapsuleBox},
+    {nullptr, nullptr, collideBoxBox},
 };
+
+PairFunction pairFunction(ShapeType first, ShapeType second) {
+  if (!isConvex(first) || isSurface(second)) return nullptr;
+  if (second == ShapeType::HalfSpace) {
+    if (first == ShapeType::Sphere) return collideSphereHalfSpace;
+    if (first == ShapeType::Capsule) return collideCapsuleHalfSpace;
+    return first == ShapeType::Box ? collideBoxHalfSpace : collideConvexHalfSpace;
+  }
+  if (second <= ShapeType::Box) return kTable[static_cast<int>(first)][static_cast<int>(second)];
+  return collideConvex;
+}
 
 /// Which of two shapes of the same kind at the same place comes first; any rule does.
 bool comesLater(const ShapeGeom& a, Quat qa, const ShapeGeom& b, Quat qb) {
@@ -53,7 +64,7 @@ void collide(const ShapeGeom& a, const NearPose& poseA, const ShapeGeom& b, cons
   out.count = 0;
   const bool swapped = changePlaces(a, poseA, b, poseB);
   const ShapeGeom &first = swapped ? b : a, &second = swapped ? a : b;
-  const PairFunction function = kTable[static_cast<int>(first.type)][static_cast<int>(second.type)];
+  const PairFunction function = pairFunction(first.type, second.type);
   if (!function) return;
   function({first, swapped ? poseB : poseA, second, swapped ? poseA : poseB, margin, swapped}, out);
   if (swapped) out.normal = -out.normal;

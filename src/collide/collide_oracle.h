@@ -174,7 +174,7 @@ class Random {
         return toShapeGeom(Capsule{within(0.1f, 1), below(5) ? within(0.1f, 1) : 0});
       case ShapeType::Box:
         return toShapeGeom(Box{within(0.1f, 1), thin ? 0.02f : within(0.1f, 1), within(0.1f, 1)});
-      case ShapeType::HalfSpace:
+      default:
         break;
     }
     return toShapeGeom(HalfSpace{});

@@ -1,8 +1,12 @@
 // Bounds of shapes at world poses.
 #include "geom/aabb.h"
 
+#include <avbd/hull.h>
+
 #include <bit>
 #include <cfloat>
+
+#include "geom/triangles.h"
 
 namespace avbd {
 namespace {
@@ -39,11 +43,21 @@ Turn turn(Quat q) {
           w * w + x * x + y * y + z * z};
 }
 
-/// Half extents of the bounds of a bounded shape.
+/// Half extents of the bounds of an ellipsoid: along a direction n it reaches |(a n.x, b n.y, c n.z)|.
+Vec3d ellipsoidReach(const ShapeGeom& geom, const Turn& t) {
+  const double k = (1 + 1e-14) / t.scale;
+  const auto row = [&](const double* m) {
+    return k * length(Vec3d{m[0] * geom.extent.x, m[1] * geom.extent.y, m[2] * geom.extent.z});
+  };
+  return {row(t.m[0]), row(t.m[1]), row(t.m[2])};
+}
+
+/// Half extents of the bounds of a shape that is centred on its frame; of a cylinder or cone: of the box about it.
 Vec3d reach(const ShapeGeom& geom, Quat rotation) {
   const double r = geom.radius;
   if (geom.type == ShapeType::Sphere) return {r, r, r};
   const Turn t = turn(rotation);
+  if (geom.type == ShapeType::Ellipsoid) return ellipsoidReach(geom, t);
   // Enlarged by more than double rounding can lose.
   const double k = (1 + 1e-14) / t.scale;
   const double x = geom.extent.x * k, y = geom.extent.y * k, z = geom.extent.z * k;
@@ -66,8 +80,33 @@ Aabb halfSpaceBounds(const Pose& pose, double margin) {
 
 }  // namespace
 
+namespace {
+
+/// Bounds of a box in a frame, as a shape that is not centred on it has them.
+struct LocalBounds {
+  Vec3 lower, upper;
+};
+
+LocalBounds localBounds(const ShapeGeom& geom) {
+  if (geom.type == ShapeType::Hull) return {geom.hull().lower(), geom.hull().upper()};
+  const Aabb box = surfaceBounds(geom);
+  return {box.lower, box.upper};
+}
+
+bool isCentred(ShapeType type) { return type < ShapeType::Hull; }
+
+}  // namespace
+
 Aabb bounds(const ShapeGeom& geom, const Pose& pose, float margin) {
   if (geom.type == ShapeType::HalfSpace) return halfSpaceBounds(pose, margin);
+  if (!isCentred(geom.type)) {
+    const LocalBounds local = localBounds(geom);
+    const Vec3d middle = (toDouble(local.lower) + toDouble(local.upper)) * 0.5;
+    // One rounding more, so that the box about the middle holds both ends.
+    const Vec3d half = (toDouble(local.upper) - toDouble(local.lower)) * (0.5 * (1 + 1e-7));
+    const Vec3 extent{roundUp(half.x), roundUp(half.y), roundUp(half.z)};
+    return bounds({ShapeType::RoundedBox, geom.radius, extent}, pose * Pose{middle, {}}, margin);
+  }
   const Vec3d p = pose.position, e = reach(geom, pose.rotation) + Vec3{margin, margin, margin};
   const Vec3d lo = p - e, hi = p + e;
   return {{roundDown(lo.x), roundDown(lo.y), roundDown(lo.z)}, {roundUp(hi.x), roundUp(hi.y), roundUp(hi.z)}};

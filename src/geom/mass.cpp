@@ -33,6 +33,12 @@ Solid solid(const Box& s, double density) {
 }
 
 Solid solid(const HalfSpace&, double) { return {}; }
+Solid solid(const Mesh&, double) { return {}; }
+Solid solid(const HeightField&, double) { return {}; }
+Solid solid(const Cylinder&, double) { return {}; }
+Solid solid(const Cone&, double) { return {}; }
+Solid solid(const Ellipsoid&, double) { return {}; }
+Solid solid(const Hull&, double) { return {}; }
 
 Solid solid(const Geometry& geometry, double density) {
   return std::visit([density](const auto& shape) { return solid(shape, density); }, geometry);

@@ -50,6 +50,8 @@ Pose checkedPose(const Path& path, const Pose& value, double maxPosition);
 // Definitions. `unit` is WorldDef::lengthUnit.
 void checkWorld(const WorldDef& def);
 void checkGeometry(const Path& path, const Geometry& geometry, float unit);
+/// Unbounded and hollow shapes belong to static and kinematic bodies.
+void checkMayMove(const Path& path, const Geometry& geometry, BodyType type);
 void checkMaterial(const Path& path, const Material& material);
 /// Returns the shape with its rotation made exact.
 ShapeDef checkedShape(const Path& path, const ShapeDef& def, BodyType type, float unit);

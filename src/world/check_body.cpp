@@ -64,9 +64,7 @@ void checkMotion(const Path& path, const BodyDef& def, float unit) {
 ShapeDef checkedSingleShape(const Path& path, const BodyDef& def, float unit) {
   const Path shape = path / "shape";
   checkGeometry(shape, *def.shape, unit);
-  if (def.type == BodyType::Dynamic && std::holds_alternative<HalfSpace>(*def.shape)) {
-    shape.refuse("HalfSpace", "must be bounded on a dynamic body");
-  }
+  checkMayMove(shape, *def.shape, def.type);
   check(path / "density", def.density, notNegative(kMaxDensity));
   checkMaterial(path / "material", def.material);
   return {.geometry = *def.shape, .density = def.density, .material = def.material, .filter = def.filter};

@@ -18,8 +18,52 @@ struct GeometryCheck {
     check(path / "x", b.x, size);
     check(path / "y", b.y, size);
     check(path / "z", b.z, size);
+    checkRounding(b.rounding);
   }
   void operator()(const HalfSpace&) const {}
+  void operator()(const Cylinder& c) const {
+    check(path / "radius", c.radius, size);
+    check(path / "halfHeight", c.halfHeight, size);
+    checkRounding(c.rounding);
+  }
+  void operator()(const Cone& c) const {
+    check(path / "radius", c.radius, size);
+    check(path / "halfHeight", c.halfHeight, size);
+    checkRounding(c.rounding);
+  }
+  void operator()(const Ellipsoid& e) const {
+    check(path / "x", e.x, size);
+    check(path / "y", e.y, size);
+    check(path / "z", e.z, size);
+  }
+  void operator()(const Hull& h) const {
+    checkData(h.data != nullptr, "makeHull");
+    checkScale(h.scale, true);
+    checkRounding(h.rounding);
+  }
+  void operator()(const Mesh& m) const {
+    checkData(m.data != nullptr, "makeMesh");
+    checkScale(m.scale, true);
+  }
+  void operator()(const HeightField& f) const {
+    checkData(f.data != nullptr, "makeHeightField");
+    checkScale(f.scale, false);
+  }
+
+  void checkRounding(float rounding) const { check(path / "rounding", rounding, notNegative(size.high)); }
+  void checkData(bool isThere, const char* maker) const {
+    if (!isThere) (path / "data").refuse("null", std::string("must be what ") + maker + " returned");
+  }
+  void checkScale(Vec3 scale, bool mayMirror) const {
+    for (const float s : {scale.x, scale.y, scale.z}) {
+      const float size1 = mayMirror && s < 0 ? -s : s;
+      // Written so that NaN is refused.
+      if (size1 >= static_cast<float>(kMinScale) && size1 <= static_cast<float>(kMaxScale)) continue;
+      (path / "scale")
+          .refuse(toText(scale), mayMirror ? "each must be finite and of size 0.001 to 1000"
+                                           : "each must be finite and from 0.001 to 1000");
+    }
+  }
 };
 
 void checkCombine(const Path& path, Combine rule) {
@@ -33,6 +77,13 @@ void checkGeometry(const Path& path, const Geometry& geometry, float unit) {
   std::visit(GeometryCheck{path, {kMinSize * unit, kMaxSize * unit}}, geometry);
 }
 
+void checkMayMove(const Path& path, const Geometry& geometry, BodyType type) {
+  if (type != BodyType::Dynamic || !isOnlyFixed(geometry)) return;
+  const bool unbounded = std::holds_alternative<HalfSpace>(geometry);
+  path.refuse(geometryName(geometry),
+              unbounded ? "must be bounded on a dynamic body" : "must be convex on a dynamic body");
+}
+
 void checkMaterial(const Path& path, const Material& m) {
   check(path / "friction", m.friction, notNegative(kMaxRate));
   if (m.staticFriction != -1) {
@@ -43,6 +94,8 @@ void checkMaterial(const Path& path, const Material& m) {
     }
   }
   check(path / "restitution", m.restitution, Range{0, 1});
+  check(path / "torsionalFriction", m.torsionalFriction, notNegative(kMaxSize));
+  check(path / "rollingFriction", m.rollingFriction, notNegative(kMaxSize));
   checkCombine(path / "frictionCombine", m.frictionCombine);
   checkCombine(path / "restitutionCombine", m.restitutionCombine);
 }
@@ -50,13 +103,14 @@ void checkMaterial(const Path& path, const Material& m) {
 ShapeDef checkedShape(const Path& path, const ShapeDef& def, BodyType type, float unit) {
   const Path geometry = path / "geometry";
   checkGeometry(geometry, def.geometry, unit);
-  if (type == BodyType::Dynamic && std::holds_alternative<HalfSpace>(def.geometry)) {
-    geometry.refuse("HalfSpace", "must be bounded on a dynamic body");
-  }
+  checkMayMove(geometry, def.geometry, type);
   ShapeDef shape = def;
   shape.pose = checkedPose(path / "pose", def.pose, kMaxSize * unit);
   check(path / "density", def.density, notNegative(kMaxDensity));
   checkMaterial(path / "material", def.material);
+  const Path materials = path / "materials";
+  if (def.materials.size() > 0xffff) materials.refuse(toText(def.materials.size()), "must be at most 65535");
+  for (size_t i = 0; i < def.materials.size(); ++i) checkMaterial(materials[i], def.materials[i]);
   return shape;
 }
 

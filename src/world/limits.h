@@ -5,11 +5,12 @@ namespace avbd {
 
 // Lengths and speeds are in units of WorldDef::lengthUnit.
 inline constexpr double kMaxPosition = 1e9;
-inline constexpr double kMinSize = 1e-6, kMaxSize = 1e6;  ///< of shapes, and distances within a body
-inline constexpr double kMaxSpeed = 1e9;                  ///< [1/s]
-inline constexpr double kMaxSpin = 1e6;                   ///< [rad/s]
-inline constexpr double kMaxAcceleration = 1e6;           ///< [1/s^2]
-inline constexpr double kMinUnit = 1e-6, kMaxUnit = 1e6;  ///< of lengthUnit itself
+inline constexpr double kMinSize = 1e-6, kMaxSize = 1e6;    ///< of shapes, and distances within a body
+inline constexpr double kMinScale = 1e-3, kMaxScale = 1e3;  ///< of shared geometry, per axis and without its sign
+inline constexpr double kMaxSpeed = 1e9;                    ///< [1/s]
+inline constexpr double kMaxSpin = 1e6;                     ///< [rad/s]
+inline constexpr double kMaxAcceleration = 1e6;             ///< [1/s^2]
+inline constexpr double kMinUnit = 1e-6, kMaxUnit = 1e6;    ///< of lengthUnit itself
 
 inline constexpr double kMinMass = 1e-24, kMaxMass = 1e18;        ///< [kg]
 inline constexpr double kMinInertia = 1e-34, kMaxInertia = 1e30;  ///< [kg m^2], of each principal moment

@@ -1,4 +1,6 @@
 // Shapes of bodies between steps (bodies.h).
+#include <avbd/hull.h>
+
 #include <algorithm>
 
 #include "world/bodies.h"
@@ -8,28 +10,49 @@
 namespace avbd {
 namespace {
 
-// Distance of the shape's farthest point from the centre of mass; a HalfSpace has none.
+float farthestVertex(const HullData& hull, const NearPose& pose) {
+  float far = 0;
+  for (const Vec3 v : hull.vertices()) far = std::max(far, length(pose * v));
+  return far;
+}
+
+// Distance of the shape's farthest point from the centre of mass, or a bound of it; unbounded and fixed shapes have
+// none.
 float reach(const ShapeGeom& geom, const NearPose& pose) {
   if (geom.type == ShapeType::Sphere) return length(pose.p) + geom.radius;
   if (geom.type == ShapeType::Capsule) {
     const Vec3 half = rotate(pose.q, geom.extent);
     return std::max(length(pose.p + half), length(pose.p - half)) + geom.radius;
   }
-  if (geom.type == ShapeType::HalfSpace) return 0;
+  if (!isConvex(geom.type)) return 0;
+  if (geom.type == ShapeType::Hull) return farthestVertex(geom.hull(), pose) + geom.radius;
   // The corner on the side on which the box lies.
   const Vec3 local = rotate(conjugate(pose.q), pose.p);
-  return length(
-      Vec3{std::abs(local.x) + geom.extent.x, std::abs(local.y) + geom.extent.y, std::abs(local.z) + geom.extent.z});
+  const Vec3 corner{std::abs(local.x) + geom.extent.x, std::abs(local.y) + geom.extent.y,
+                    std::abs(local.z) + geom.extent.z};
+  return length(corner) + geom.radius;
 }
 
+// Of the largest ball in a cone: that of the circle in its section, a triangle of base 2 r and this height.
+float coneInnerRadius(float r, float height) { return r * height / (r + std::sqrt(r * r + height * height)); }
+
 float halfThickness(const ShapeGeom& geom) {
-  if (geom.type == ShapeType::Box) return std::min({geom.extent.x, geom.extent.y, geom.extent.z});
-  return geom.radius;
+  switch (geom.type) {
+    case ShapeType::Sphere:
+    case ShapeType::Capsule:
+      return geom.radius;
+    case ShapeType::Cone:
+      return geom.radius + coneInnerRadius(geom.extent.x, 2 * geom.extent.y);
+    case ShapeType::Hull:
+      return geom.radius + geom.hull().innerRadius();
+    default:
+      return geom.radius + std::min({geom.extent.x, geom.extent.y, geom.extent.z});
+  }
 }
 
 void placeShape(BodyData& body, ShapeData& shape) {
   shape.toMass = {toFloat(shape.local.position - toDouble(body.center)), shape.local.rotation};
-  if (shape.geom.type == ShapeType::HalfSpace) return;
+  if (!isConvex(shape.geom.type)) return;
   const float thickness = halfThickness(shape.geom);
   body.minExtent = body.radius > 0 ? std::min(body.minExtent, thickness) : thickness;
   body.radius = std::max(body.radius, reach(shape.geom, shape.toMass));
@@ -53,10 +76,16 @@ uint32_t addShape(WorldData& data, uint32_t bodySlot, const ShapeDef& def) {
   BodyData& body = data.bodies[bodySlot];
   ShapeData& shape = data.shapes[slot];
   shape = {};
-  shape.geom = toShapeGeom(def.geometry);
+  shape.geometry = def.geometry;
+  shape.geom = toShapeGeom(shape.geometry, shape.scaled);
   shape.local = def.pose;
   shape.material = def.material;
+  shape.materials = def.materials;
   shape.filter = def.filter;
+  shape.isTrigger = def.isTrigger;
+  shape.contactEvents = def.contactEvents;
+  shape.hitEvents = def.hitEvents;
+  shape.contactHook = def.contactHook;
   shape.density = def.density;
   shape.userData = def.userData;
   shape.body = bodySlot;
@@ -91,7 +120,8 @@ std::vector<ShapeDef> shapeDefs(const WorldData& data, uint32_t body) {
   std::vector<ShapeDef> defs;
   for (const uint32_t slot : shapeSlots(data, body)) {
     const ShapeData& shape = data.shapes[slot];
-    defs.push_back({.geometry = toGeometry(shape.geom), .pose = shape.local, .density = shape.density});
+    defs.push_back(
+        {.geometry = shape.geometry, .pose = shape.local, .density = shape.density, .isTrigger = shape.isTrigger});
   }
   return defs;
 }

@@ -38,11 +38,15 @@ struct BodyData {
 };
 
 struct ShapeData {
+  Geometry geometry;                       ///< as the user gave it; keeps shared geometry alive
+  std::shared_ptr<const HullData> scaled;  ///< what geom points to where a Hull has a scale
   ShapeGeom geom;
   Pose local;       ///< in the body's frame
   NearPose toMass;  ///< in the body's axes, relative to its centre of mass
   Material material;
+  std::vector<Material> materials;  ///< of a surface's triangles; empty: `material`
   Filter filter;
+  bool isTrigger = false, contactEvents = true, hitEvents = false, contactHook = false;
   float density = 0;
   uint32_t body = kNone;
   uint32_t next = kNone;  ///< next shape of the body
@@ -105,6 +109,8 @@ struct WorldData {
   std::vector<uint32_t> forgotten;
   double time = 0;
   StepReport report;
+  Events events;  ///< of the last step
+  std::function<bool(ContactPlan&)> contactHook;
 };
 
 }  // namespace avbd
