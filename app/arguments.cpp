@@ -33,20 +33,77 @@ void setSolver(scenes::Settings& s, const std::string& solver) {
 // The bounds of settings are the library's own; a world that refuses them does so before anything has happened.
 void checkSettings(const scenes::Settings& s) { World(scenes::apply(s)); }
 
+void addUrdf(CLI::App& command, UrdfArguments& a) {
+  constexpr const char* kUrdf = "URDF";
+  command.add_flag("--floating", a.floating, "the robot is not fixed: it stands free on a ground below it")
+      ->group(kUrdf);
+  command
+      .add_option("--package", a.packages,
+                  "NAME=DIR: where package://NAME lies; DIR: where packages lie; may be given often")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(kUrdf);
+  command.add_flag("--skip-bad-meshes", a.skipBadMeshes, "leave out meshes that cannot be read instead of refusing")
+      ->group(kUrdf);
+  command.add_flag("--decompose", a.decompose, "a mesh becomes several convex hulls that follow it, not one around it")
+      ->group(kUrdf);
+  command.add_option("--hull-cache", a.hullCache, "folder that keeps what --decompose made [~/.cache/avbd/hulls]")
+      ->group(kUrdf);
+  command.add_flag("--collide-visuals", a.collideVisuals, "links without a collision collide as they look")
+      ->group(kUrdf);
+}
+
+void addPort(CLI::App& command, int& port) {
+  command.add_option("--port", port, "port of the page on this computer [8642]; 0 for any that is free")
+      ->check(CLI::Range(0, 65535));
+}
+
 CLI::App* addRun(CLI::App& app, RunArguments& a, std::string& solver) {
-  CLI::App* run = app.add_subcommand("run", "Simulate a MJCF file or a built-in scene and report");
-  run->add_option("scene", a.scene, "FILE.xml, or a name that `avbd scenes` lists")->required();
+  CLI::App* run = app.add_subcommand("run", "Simulate a MJCF or URDF file or a built-in scene and report");
+  run->add_option("scene", a.scene, "FILE.xml, FILE.urdf, or a name that `avbd scenes` lists")->required();
   run->add_option("--time", a.time, "simulated time [s]; else the scene's own");
   run->add_option("--dt", a.dt, "step [s]; else the file's or scene's own");
   run->add_option("--keyframe", a.keyframe, "keyframe of the file to start at; else its first one");
   run->add_option("--html", a.html, "write a page that plays the run");
   run->add_option("--poses", a.poses, "write poses of body frames as CSV, in the file's world frame");
-  run->add_option("--fps", a.fps, "row sets of the CSV per simulated second [60]");
+  run->add_option("--fps", a.fps, "row sets of the CSV, and frames of the recording, per simulated second [60]");
+  run->add_option("--record", a.record, "write a recording, which play, convert and info read");
+  run->add_flag("--live", a.live, "serve a page that shows the run as it happens");
+  addPort(*run, a.port);
   run->add_flag("--json", a.json, "the report as one JSON object");
   run->add_flag_callback(
       "--no-report", [&a] { a.report = false; }, "no report");
+  addUrdf(*run, a.urdf);
   addSettings(*run, a.settings, solver);
   return run;
+}
+
+CLI::App* addConvert(CLI::App& app, ConvertArguments& a) {
+  CLI::App* convert = app.add_subcommand("convert", "Write a recording in other formats");
+  convert->add_option("file", a.file, "FILE.avbd, as `avbd run --record` writes it")->required();
+  convert->add_option("--csv", a.csv, "poses and velocities of all bodies, a row each");
+  convert->add_option("--json", a.json, "everything, as one JSON object");
+  convert->add_option("--mcap", a.mcap, "MCAP with JSON messages, for Foxglove and the like");
+  convert->add_option("--html", a.html, "a page that plays it");
+  return convert;
+}
+
+CLI::App* addPlay(CLI::App& app, PlayArguments& a) {
+  CLI::App* play = app.add_subcommand("play", "Serve a page that plays a recording, even while it grows");
+  play->add_option("file", a.file, "FILE.avbd")->required();
+  addPort(*play, a.port);
+  return play;
+}
+
+CLI::App* addInfo(CLI::App& app, InfoArguments& a) {
+  CLI::App* info = app.add_subcommand("info", "Say what a file holds, and what of it was ignored and why");
+  info->add_option("file", a.file, "MJCF, URDF, a mesh (.obj, .stl, .msh), a recording (.avbd), or a scene's name")
+      ->required();
+  info->add_option("--keyframe", a.keyframe, "keyframe of the file to start at; else its first one");
+  info->add_flag("--json", a.json, "one JSON object");
+  addUrdf(*info, a.urdf);
+  return info;
 }
 
 CLI::App* addBench(CLI::App& app, BenchArguments& a, std::string& solver, std::string& peer) {
@@ -84,10 +141,16 @@ Arguments parseArguments(std::vector<std::string> args) {
   RunArguments run;
   BenchArguments bench;
   VerifyArguments verify;
+  ConvertArguments convert;
+  PlayArguments play;
   std::string solver, peer;
   CLI::App* runApp = addRun(app, run, solver);
   CLI::App* benchApp = addBench(app, bench, solver, peer);
   CLI::App* verifyApp = addVerify(app, verify, solver);
+  CLI::App* convertApp = addConvert(app, convert);
+  CLI::App* playApp = addPlay(app, play);
+  InfoArguments info;
+  CLI::App* infoApp = addInfo(app, info);
   app.add_subcommand("scenes", "List the built-in scenes");
   refuseUnknownCommand(app, args);
   try {
@@ -116,6 +179,9 @@ Arguments parseArguments(std::vector<std::string> args) {
     checkSettings(verify.settings);
     return verify;
   }
+  if (convertApp->parsed()) return convert;
+  if (playApp->parsed()) return play;
+  if (infoApp->parsed()) return info;
   return ScenesArguments{};
 }
 

@@ -10,12 +10,27 @@
 
 namespace avbd::cli {
 
+/// For URDF files only.
+struct UrdfArguments {
+  bool floating = false;
+  std::vector<std::string> packages;  ///< NAME=DIR, or DIR that holds packages
+  bool skipBadMeshes = false, decompose = false, collideVisuals = false;
+  std::optional<std::string> hullCache;  ///< folder; not set: the user's usual one
+};
+
+/// Where a browser finds `play` and `run --live`.
+inline constexpr int kLivePort = 8642;
+
 struct RunArguments {
   std::string scene;               ///< a file, or a scene's name or alias
   std::optional<double> time, dt;  ///< [s]; not set: the file's or scene's own
   std::string html, poses;         ///< files to write; empty: none
-  double fps = 60;                 ///< row sets of `poses` per second of simulated time
+  double fps = 60;                 ///< row sets of `poses` and frames of `record` per second of simulated time
+  std::string record;              ///< recording to write; empty: none
+  bool live = false;               ///< serve the page while it runs
+  int port = kLivePort;            ///< of `live`
   std::optional<std::string> keyframe;
+  UrdfArguments urdf;
   bool json = false, report = true;
   scenes::Settings settings;
 };
@@ -32,6 +47,23 @@ struct VerifyArguments {
   scenes::Settings settings;
 };
 
+struct ConvertArguments {
+  std::string file;                   ///< a recording
+  std::string csv, json, mcap, html;  ///< files to write; empty: none
+};
+
+struct PlayArguments {
+  std::string file;  ///< a recording
+  int port = kLivePort;
+};
+
+struct InfoArguments {
+  std::string file;  ///< a model, a mesh, a recording, or a scene's name
+  std::optional<std::string> keyframe;
+  UrdfArguments urdf;
+  bool json = false;
+};
+
 struct ScenesArguments {};
 
 /// Help or the version.
@@ -39,7 +71,8 @@ struct PrintText {
   std::string text;
 };
 
-using Arguments = std::variant<PrintText, RunArguments, BenchArguments, VerifyArguments, ScenesArguments>;
+using Arguments = std::variant<PrintText, RunArguments, BenchArguments, VerifyArguments, ConvertArguments,
+                               PlayArguments, InfoArguments, ScenesArguments>;
 
 /// `args` without the program's name. Throws BadInput.
 Arguments parseArguments(std::vector<std::string> args);

@@ -19,6 +19,9 @@ int dispatch(const Arguments& arguments, std::ostream& out, std::ostream& err) {
   if (const auto* run = std::get_if<RunArguments>(&arguments)) return runCommand(*run, out, err);
   if (const auto* bench = std::get_if<BenchArguments>(&arguments)) return benchCommand(*bench, out);
   if (const auto* verify = std::get_if<VerifyArguments>(&arguments)) return verifyCommand(*verify, out);
+  if (const auto* convert = std::get_if<ConvertArguments>(&arguments)) return convertCommand(*convert, out, err);
+  if (const auto* play = std::get_if<PlayArguments>(&arguments)) return playCommand(*play, out);
+  if (const auto* info = std::get_if<InfoArguments>(&arguments)) return infoCommand(*info, out);
   return scenesCommand(out);
 }
 

@@ -12,6 +12,11 @@ int scenesCommand(std::ostream& out);
 /// Each record is printed as soon as it is measured. A peer's failed check is shown but is no failure of ours.
 int benchCommand(const BenchArguments& arguments, std::ostream& out);
 int verifyCommand(const VerifyArguments& arguments, std::ostream& out);
+int convertCommand(const ConvertArguments& arguments, std::ostream& out, std::ostream& err);
+/// Serves until requestStop(), which is how it ends in order.
+int playCommand(const PlayArguments& arguments, std::ostream& out);
+
+int infoCommand(const InfoArguments& arguments, std::ostream& out);
 
 /// The catalogue's scene. Throws BadInput that lists near names.
 const scenes::Scene& sceneNamed(const std::string& name);

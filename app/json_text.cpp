@@ -11,6 +11,10 @@ using Json = nlohmann::ordered_json;
 // Names may hold bytes that are no UTF-8.
 std::string text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
+Json boundsJson(const Bounds& bounds, Vec3d corner) {
+  return bounds.empty() ? Json() : Json::array({corner.x, corner.y, corner.z});
+}
+
 }  // namespace
 
 std::string jsonText(const RunFigures& f) {
@@ -58,6 +62,69 @@ std::string jsonText(const VerifyRecord& r) {
   json["unit"] = r.figure.unit;
   json["status"] = r.status;
   if (skipped) json["reason"] = r.reason;
+  return text(json);
+}
+
+std::string jsonText(const ModelInfo& info) {
+  const auto counts = [](const auto& all, const char* (*name)(size_t)) {
+    Json json = Json::object();
+    for (size_t i = 0; i < all.size(); ++i) {
+      if (all[i] > 0) json[name(i)] = all[i];
+    }
+    return json;
+  };
+  return text({{"model", info.name},
+               {"dynamic", info.dynamic},
+               {"kinematic", info.kinematic},
+               {"static", info.fixed},
+               {"shapes", counts(info.shapes, shapeKindName)},
+               {"hull_vertices", info.hullVertices},
+               {"mesh_triangles", info.meshTriangles},
+               {"heights", info.heightSamples},
+               {"joints", counts(info.joints, jointKindName)},
+               {"mass", info.mass},
+               {"lower", boundsJson(info.bounds, info.bounds.lower)},
+               {"upper", boundsJson(info.bounds, info.bounds.upper)},
+               {"dt", info.dt},
+               {"gravity", Json::array({info.gravity.x, info.gravity.y, info.gravity.z})},
+               {"up", Json::array({info.up.x, info.up.y, info.up.z})},
+               {"keyframes", info.keyframes},
+               {"notes", info.notes}});
+}
+
+std::string jsonText(const MeshInfo& info) {
+  Json json{{"mesh", info.name},
+            {"vertices", info.vertices},
+            {"triangles", info.triangles},
+            {"degenerate", info.report.degenerate},
+            {"duplicate", info.report.duplicate},
+            {"lower", boundsJson(info.bounds, info.bounds.lower)},
+            {"upper", boundsJson(info.bounds, info.bounds.upper)},
+            {"closed", info.closed},
+            {"boundary_edges", info.report.boundaryEdges},
+            {"non_manifold_edges", info.report.nonManifoldEdges},
+            {"area", info.area}};
+  json["volume"] = info.closed ? Json(info.volume) : Json();
+  json["hull_vertices"] = info.hullVertices ? Json(*info.hullVertices) : Json();
+  json["hull_volume"] = info.hullVertices ? Json(info.hullVolume) : Json();
+  json["hull_error"] = info.hullVertices ? Json(info.hullError) : Json();
+  if (!info.hullVertices) json["hull_refused"] = info.hullRefused;
+  json["bytes"] = info.report.bytes;
+  json["notes"] = info.notes;
+  return text(json);
+}
+
+std::string jsonText(const ReportLines& lines) {
+  Json json = Json::object();
+  for (const auto& [label, value] : lines) {
+    // Labels such as "note" may stand more than once.
+    if (!json.contains(label)) {
+      json[label] = value;
+    } else {
+      if (!json[label].is_array()) json[label] = Json::array({json[label]});
+      json[label].push_back(value);
+    }
+  }
   return text(json);
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/figures.h"
+#include "app/info_figures.h"
 #include "bench/bench.h"
 
 namespace avbd::cli {
@@ -19,5 +20,9 @@ struct VerifyRecord {
 std::string jsonText(const RunFigures& figures);
 std::string jsonText(const bench::BenchRecord& record);
 std::string jsonText(const VerifyRecord& record);
+std::string jsonText(const ModelInfo& info);
+std::string jsonText(const MeshInfo& info);
+/// Each label with its text.
+std::string jsonText(const ReportLines& lines);
 
 }  // namespace avbd::cli

@@ -2,12 +2,15 @@
 #include "app/load.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "app/commands.h"
 #include "app/failure.h"
 #include "app/number_text.h"
 #include "io/mjcf.h"
+#include "io/urdf.h"
 
 namespace avbd::cli {
 namespace {
@@ -23,14 +26,87 @@ bool looksLikeFile(const std::string& name) {
   return path.has_extension() || name.find('/') != std::string::npos || fs::exists(path, ignored);
 }
 
+// By the root element, or by the extension where the text does not show one.
+bool isUrdf(const std::string& file) {
+  std::error_code ignored;
+  const std::string kind = fs::path(file).extension().string();
+  if (kind == ".urdf" || kind == ".xacro" || kind == ".URDF") return true;
+  if (!fs::is_regular_file(file, ignored)) return false;
+  std::string head(65536, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<size_t>(in.gcount()));
+  for (size_t at = head.find('<'); at != std::string::npos; at = head.find('<', at + 1)) {
+    if (head.compare(at, 4, "<!--") == 0) {
+      at = head.find("-->", at);
+    } else if (head.compare(at, 2, "<?") != 0 && head.compare(at, 2, "<!") != 0) {
+      return head.compare(at, 6, "<robot") == 0;
+    }
+    if (at == std::string::npos) break;
+  }
+  return false;
+}
+
+void refuseUrdfOptions(const UrdfArguments& a, const std::string& scene) {
+  const char* given = a.floating            ? "--floating"
+                      : !a.packages.empty() ? "--package"
+                      : a.skipBadMeshes     ? "--skip-bad-meshes"
+                      : a.decompose         ? "--decompose"
+                      : a.hullCache         ? "--hull-cache"
+                      : a.collideVisuals    ? "--collide-visuals"
+                                            : nullptr;
+  if (given) throw BadInput(std::string(given) + ": " + scene + " is not a URDF file");
+}
+
+// Where programs of this user keep what they can make again (XDG base directories); empty where that is not known.
+fs::path usualHullCache() {
+  const auto folder = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return value ? fs::path(value) : fs::path();
+  };
+  if (const fs::path cache = folder("XDG_CACHE_HOME"); cache.is_absolute()) return cache / "avbd" / "hulls";
+  if (const fs::path home = folder("HOME"); home.is_absolute()) return home / ".cache" / "avbd" / "hulls";
+  return {};
+}
+
+Model loadUrdf(const RunArguments& a) {
+  if (a.urdf.hullCache && !a.urdf.decompose) throw BadInput("--hull-cache: only --decompose makes what it keeps");
+  if (a.keyframe) throw BadInput("--keyframe " + *a.keyframe + ": a URDF file has no keyframes");
+  UrdfOptions options;
+  options.world = scenes::apply(a.settings);
+  options.floating = a.urdf.floating;
+  if (a.urdf.floating) options.ground = 0;
+  options.badMesh = a.urdf.skipBadMeshes ? BadMesh::Note : BadMesh::Refuse;
+  options.decompose = a.urdf.decompose;
+  if (a.urdf.decompose) options.hullCache = a.urdf.hullCache ? fs::path(*a.urdf.hullCache) : usualHullCache();
+  options.collideVisuals = a.urdf.collideVisuals;
+  for (const std::string& package : a.urdf.packages) {
+    const size_t equals = package.find('=');
+    const std::string folder = equals == std::string::npos ? package : package.substr(equals + 1);
+    std::error_code ignored;
+    if (equals == 0 || !fs::is_directory(folder, ignored)) {
+      throw BadInput("--package " + package + ": must be NAME=DIR or DIR, with an existing folder");
+    }
+    if (equals == std::string::npos) {
+      options.packagePaths.emplace_back(folder);
+    } else {
+      options.packages[package.substr(0, equals)] = folder;
+    }
+  }
+  return readUrdf(a.scene, options);
+}
+
 }  // namespace
 
 Model loadModel(const RunArguments& a) {
   if (const scenes::Scene* scene = scenes::find(a.scene)) {
     if (a.keyframe) throw BadInput("--keyframe " + *a.keyframe + ": scene " + a.scene + " has no keyframes");
+    refuseUrdfOptions(a.urdf, "scene " + a.scene);
     return scene->make(a.settings);
   }
   if (!looksLikeFile(a.scene)) sceneNamed(a.scene);
+  if (isUrdf(a.scene)) return loadUrdf(a);
+  refuseUrdfOptions(a.urdf, a.scene);
   MjcfOptions options;
   options.world = scenes::apply(a.settings);
   options.keyframe = a.keyframe.value_or("");

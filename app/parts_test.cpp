@@ -81,29 +81,30 @@ TEST(Recorder, KeepsTheModelsOrderAndTheStrongestContacts) {
   Model model = scene->make({});
   std::reverse(model.bodies.begin(), model.bodies.end());
   Recorder recorder(model, 1, 1);
-  std::vector<BodyId> ids;
-  for (const NamedBody& body : model.bodies) ids.push_back(body.id);
-  std::vector<Pose> poses(ids.size());
-  for (int i = 0; i < 3; ++i) model.world.step(1.0f / 60);
-  model.world.getPoses(ids, poses);
-  recorder.add(model, 0.05, poses);
-  const Recording& r = recorder.recording();
+  for (int i = 0; i < 3; ++i) {
+    model.world.step(1.0f / 60);
+    recorder.watch(model.world);
+  }
+  const RecordedFrame frame = recorder.frame(model, 0.05);
+  const Recording& r = recorder.head();
   ASSERT_EQ(r.bodies.size(), model.bodies.size());
   ASSERT_EQ(r.shapes.size(), model.world.shapeCount());
   for (size_t i = 0; i < r.bodies.size(); ++i) EXPECT_EQ(r.bodies[i].name, model.bodies[i].name);
   for (const RecordedShape& s : r.shapes)
     EXPECT_EQ(std::get<Box>(s.geometry).x == 100, r.bodies[s.body].name == "ground");
-  ASSERT_EQ(r.frames.size(), 1u);
-  EXPECT_EQ(r.frames[0].contacts.size(), 1000u);
+  ASSERT_EQ(frame.poses.size(), r.bodies.size());
+  for (size_t i = 0; i < r.bodies.size(); ++i)
+    EXPECT_EQ(frame.poses[i], model.world.pose(model.bodies[i].id)) << r.bodies[i].name;
+  EXPECT_EQ(frame.contacts.size(), 1000u);
   EXPECT_GT(model.world.report().points, 1500u);
   float strongest = 0;
   for (const Contact& c : model.world.contacts())
     for (int i = 0; i < c.pointCount; ++i)
       strongest = std::max(strongest, c.points[static_cast<size_t>(i)].normalForce);
   float kept = 0;
-  for (const RecordedContact& c : r.frames[0].contacts) kept = std::max(kept, length(c.force));
+  for (const RecordedContact& c : frame.contacts) kept = std::max(kept, length(c.force));
   EXPECT_GE(kept, strongest);
-  EXPECT_LT(r.frames[0].penetrationMax, 0.05) << "poses belong to their shapes";
+  EXPECT_LT(frame.penetrationMax, 0.05) << "poses belong to their shapes";
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
-// `avbd run`: simulate, write, report.
-#include <algorithm>
+// `avbd run`: simulate, write, report, and show the run in a browser as it happens.
+#include <unistd.h>
+
 #include <chrono>
+#include <filesystem>
 #include <memory>
+#include <thread>
 
 #include "app/command_line.h"
 #include "app/commands.h"
@@ -9,82 +12,12 @@
 #include "app/figures.h"
 #include "app/json_text.h"
 #include "app/load.h"
-#include "app/output_file.h"
-#include "app/poses_csv.h"
+#include "app/outputs.h"
 #include "app/progress.h"
-#include "app/recorder.h"
-#include "app/sampler.h"
-#include "viewer/page.h"
+#include "viewer/live.h"
 
 namespace avbd::cli {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr double kPageFps = 60;
-constexpr double kPageFrames = 1200;
-constexpr double kPagePoses = 2.4e6;  // of all bodies in all frames: about 48 MB of page
-
-double pageFps(const Model& model, const Plan& plan) {
-  const double bodies = static_cast<double>(std::max<size_t>(1, model.bodies.size()));
-  const double frames = std::max(2.0, std::min(kPageFrames, kPagePoses / bodies));
-  const double time = static_cast<double>(plan.steps) * plan.dt;
-  return time > 0 ? std::min(kPageFps, frames / time) : kPageFps;
-}
-
-// The files that a run writes: opened before the first step, so that what cannot be written costs no run.
-class Outputs {
- public:
-  Outputs(const RunArguments& a, const Model& model, const Plan& plan)
-      : csvSampler_(a.fps, plan.dt), pageSampler_(pageFps(model, plan), plan.dt), ids_(model.bodies.size()) {
-    for (size_t i = 0; i < ids_.size(); ++i) ids_[i] = model.bodies[i].id;
-    poses_.resize(ids_.size());
-    if (!a.poses.empty()) csvFile_ = std::make_unique<OutputFile>("--poses", a.poses);
-    if (!a.html.empty()) pageFile_ = std::make_unique<OutputFile>("--html", a.html);
-    refuseSame(a);
-    if (csvFile_) csv_ = std::make_unique<PosesCsv>(csvFile_->stream(), model);
-    const double frames = pageFps(model, plan) * static_cast<double>(plan.steps) * plan.dt;
-    if (pageFile_) recorder_ = std::make_unique<Recorder>(model, static_cast<size_t>(frames) + 2);
-  }
-
-  void look(const Model& model, int64_t step, const Plan& plan) {
-    const bool rows = csv_ && csvSampler_.due(step);
-    const bool frame = recorder_ && (pageSampler_.due(step) || step == plan.steps);  // the end belongs to the page
-    if (!rows && !frame) return;
-    const double time = static_cast<double>(step) * plan.dt;
-    model.world.getPoses(ids_, poses_);
-    if (rows) csv_->write(time, poses_);
-    if (frame) recorder_->add(model, time, poses_);
-  }
-
-  void commit(const ReportLines& report) {
-    if (recorder_) {
-      recorder_->recording().report = report;
-      writePage(pageFile_->stream(), recorder_->recording());
-    }
-    // Both or none.
-    for (const auto& file : {&csvFile_, &pageFile_})
-      if (*file) (*file)->finish();
-    for (const auto& file : {&csvFile_, &pageFile_})
-      if (*file) (*file)->commit();
-  }
-
- private:
-  void refuseSame(const RunArguments& a) const {
-    if (csvFile_ && pageFile_ && csvFile_->target() == pageFile_->target())
-      throw BadInput("--html and --poses are the same file " + a.html);
-    std::error_code none;
-    for (const std::string& file : {a.poses, a.html})
-      if (!file.empty() && fs::equivalent(file, a.scene, none)) throw BadInput(file + ": is the scene itself");
-  }
-
-  Sampler csvSampler_, pageSampler_;
-  std::vector<BodyId> ids_;
-  std::vector<Pose> poses_;
-  std::unique_ptr<OutputFile> csvFile_, pageFile_;
-  std::unique_ptr<PosesCsv> csv_;
-  std::unique_ptr<Recorder> recorder_;
-};
 
 double timedStep(Model& model, int64_t step, double dt) {
   using Clock = std::chrono::steady_clock;
@@ -97,12 +30,57 @@ double timedStep(Model& model, int64_t step, double dt) {
   }
 }
 
+/// A page that shows the run's recording while it grows.
+class LivePage {
+ public:
+  /// The recording that the page shows; it vanishes with the run unless the user asked for it.
+  static std::string fileOf(const RunArguments& a) {
+    if (!a.live || !a.record.empty()) return a.record;
+    return (std::filesystem::temp_directory_path() / ("avbd_live_" + std::to_string(getpid()) + ".avbd")).string();
+  }
+  LivePage(const RunArguments& a, const std::string& file, std::ostream& err)
+      : temporary_(a.record.empty() ? file : ""), server_(file, static_cast<uint16_t>(a.port)), begin_(Clock::now()) {
+    err << "live at " << server_.url() << "; Ctrl-C ends it" << std::endl;
+  }
+  ~LivePage() {
+    std::error_code ignored;
+    if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+  }
+
+  /// Lets the simulated time not run ahead of the clock.
+  void pace(double time) const {
+    while (std::chrono::duration<double>(Clock::now() - begin_).count() < time) pause();
+  }
+  /// Until the user has seen enough.
+  void stay() const {
+    try {
+      for (;;) pause();
+    } catch (const Stopped&) {
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static void pause() {
+    throwIfStopped();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+
+  std::string temporary_;
+  LiveServer server_;
+  Clock::time_point begin_;
+};
+
 }  // namespace
 
-int runCommand(const RunArguments& a, std::ostream& out, std::ostream& err) {
+int runCommand(const RunArguments& asked, std::ostream& out, std::ostream& err) {
+  RunArguments a = asked;
+  a.record = LivePage::fileOf(asked);
   Model model = loadModel(a);
   const Plan plan = planRun(a, model);
   Outputs outputs(a, model, plan);
+  std::unique_ptr<LivePage> page;
+  if (a.live) page = std::make_unique<LivePage>(asked, a.record, err);
   Clockwork clock;
   {
     Progress progress(err);
@@ -112,6 +90,7 @@ int runCommand(const RunArguments& a, std::ostream& out, std::ostream& err) {
       const double seconds = timedStep(model, step, plan.dt);
       clock.add(seconds, model.world.report());
       outputs.look(model, step, plan);
+      if (page) page->pace(static_cast<double>(step) * plan.dt);
       progress.show(step, plan.steps, static_cast<double>(step) * plan.dt);
     }
   }
@@ -123,6 +102,10 @@ int runCommand(const RunArguments& a, std::ostream& out, std::ostream& err) {
     out << jsonText(figures) << "\n";
   } else if (a.report) {
     out << reportText(report);
+  }
+  if (page) {
+    out.flush();
+    page->stay();
   }
   return kExitDone;
 }

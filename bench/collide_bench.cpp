@@ -1,7 +1,10 @@
 // Time of collide() per pair, for each kind of pair in the states that piles are made of.
+#include <avbd/hull.h>
 #include <benchmark/benchmark.h>
 
+#include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "collide/collide.h"
@@ -70,7 +73,60 @@ AVBD_PAIR(box_box_pile, kBox, kBox, {0.3f, 1, 0.2f}, 0.4f, 1, 0.3f);
 AVBD_PAIR(box_box_corner_apart, kBox, kBox, {1.01f, 1.01f, 0}, 0.001f, 0, 0.001f);
 AVBD_PAIR(box_box_apart, kBox, kBox, {0, 1.2f, 0}, 0.2f, 1, 0.01f);
 
+/// One of every convex type, about half a metre in every direction. The hull has 32 corners on a ball, cut flat below
+/// and above; the box hull is a box.
+std::vector<std::pair<std::string, Geometry>> everyType() {
+  std::mt19937 random(7);
+  std::normal_distribution<float> normal;
+  std::vector<Vec3> ball, corners;
+  for (int i = 0; i < 24; ++i) {
+    const Vec3 p{normal(random), normal(random), normal(random)};
+    const float k = 0.6f / length(p);
+    ball.push_back({p.x * k, p.y * k > 0.4f ? 0.4f : (p.y * k < -0.4f ? -0.4f : p.y * k), p.z * k});
+  }
+  for (int k = 0; k < 8; ++k) {
+    corners.push_back({k & 1 ? 0.5f : -0.5f, k & 2 ? 0.5f : -0.5f, k & 4 ? 0.5f : -0.5f});
+    ball.push_back({k & 1 ? 0.3f : -0.3f, k & 2 ? 0.5f : -0.5f, k & 4 ? 0.3f : -0.3f});
+  }
+  return {{"sphere", Sphere{0.5f}},
+          {"capsule", Capsule{0.25f, 0.25f}},
+          {"box", kBox},
+          {"cylinder", Cylinder{0.5f, 0.5f}},
+          {"cone", Cone{0.5f, 0.5f}},
+          {"ellipsoid", Ellipsoid{0.5f, 0.5f, 0.4f}},
+          {"rounded_box", Box{0.4f, 0.4f, 0.4f, 0.1f}},
+          {"box_hull", Hull{makeHull({.points = corners})}},
+          {"hull", Hull{makeHull({.points = ball})}},
+          {"half_space", HalfSpace{}}};
+}
+
+/// Every pair of the table: one resting on the other, the same with the upper one shifted and turned so that edges and
+/// corners touch, and apart by more than the margin.
+void registerTable() {
+  static const auto types = everyType();  // holds the hulls
+  for (size_t i = 0; i < types.size(); ++i) {
+    for (size_t j = i; j < types.size(); ++j) {
+      if (std::holds_alternative<HalfSpace>(types[i].second)) continue;
+      const bool plane = std::holds_alternative<HalfSpace>(types[j].second);
+      const float y = plane ? -0.499f : 0.999f;
+      const auto add = [&](const char* how, const std::vector<Case>& all) {
+        const std::string name = "table/" + types[i].first + "/" + types[j].first + "/" + how;
+        benchmark::RegisterBenchmark(name.c_str(), [all](benchmark::State& state) { run(state, all); });
+      };
+      add("rest", cases(types[i].second, types[j].second, {0, y, 0}, 0.1f, 0.3f, 0.0005f));
+      add("shifted", cases(types[i].second, types[j].second, {0.4f, 0.92f * y, 0.3f}, 0.1f, 1, plane ? 0.001f : 0.6f));
+      add("apart", cases(types[i].second, types[j].second, {0.3f, plane ? -0.8f : 1.3f, 0.2f}, 0.1f, 1, 0.1f));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace avbd
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  avbd::registerTable();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,12 +1,20 @@
 // Reads MJCF (MuJoCo's XML) into a world.
 //
 // Kept as MuJoCo means it: compiler settings, default classes, the body tree with all orientations and frames,
-// spheres, capsules, boxes and planes, masses by density, mass, inertial and the compiler's bounds, contype and
+// spheres, capsules, boxes, planes, cylinders, ellipsoids, meshes (their convex hulls collide, as in MuJoCo),
+// primitives fitted to meshes, height fields, masses by density, mass, inertial and the compiler's bounds, contype and
 // conaffinity, excludes, friction by maximum and priority, ball joints, connect and weld, keyframes, gravity, timestep.
 // A body without a free or ball joint is part of its parent's rigid body (static under worldbody): MuJoCo's own meaning
 // where it has no joint at all; hinges and slides are welded like this, and noted.
-// Left out with a note: other shapes (cylinders and ellipsoids still weigh), tendons, actuators, sensors, composites,
-// contact softness, torsional and rolling friction, joint limits and damping. condim 1 is friction 0.
+// condim 1 is friction 0, 4 adds torsional and 6 rolling friction.
+// A mesh weighs by its own volume, as in MuJoCo from 2.3 on (2.2 took that of a box of the same inertia); its pyramids
+// all count positive unless compiler exactmeshinertia or the mesh's inertia="exact" asks for the exact integral.
+// Files of meshes and height fields: an absolute path as it is, others from the model's folder and meshdir (or
+// assetdir); `..` may leave the folder, as in MuJoCo; regular files only, at most 256 MiB together. A mesh's file is
+// read when a geom first uses it.
+// Left out with a note: sdf geoms, height fields from PNG, tendons, actuators, sensors, skins, composites and other
+// elements that make bodies, contact softness, joint limits and damping. A body that moves and has no mass but that of
+// parts left out stands still; contacts and equalities that name such parts are left out too.
 // Anything unknown is noted; anything wrong is refused with its place in the file.
 #pragma once
 

@@ -33,7 +33,7 @@ class Builder {
   void setVelocities(const std::vector<double>& qvel);
   void noteWelds();
   void gather();
-  [[noreturn]] void failMass(size_t root) const;
+  void stopWithoutMass();
   void addShapes(size_t body);
   void addBody(size_t root);
   std::string whereOf(size_t root, const Error& error) const;
@@ -42,7 +42,6 @@ class Builder {
   void addWeld(const Equality& equality, BodyId a, BodyId b, const Posed& startA, const Posed& startB);
   void addExclude(const Exclude& exclude);
 
-  float narrow(double value, const std::string& where) const;
   Vec3 narrow(Vec3d v, const std::string& where) const;
   size_t rootOf(size_t body) const { return static_cast<size_t>(clusters_.rootOf[body]); }
   Link linkOf(size_t root) const { return clusters_.linkOf[root]; }
@@ -57,12 +56,14 @@ class Builder {
   Clusters clusters_;
   std::vector<Posed> start_;                     // world poses at the start
   std::vector<Posed> rest_;                      // world poses as in the file
+  std::vector<Mass> masses_;                     // of dynamic roots, in their frame
   std::vector<Motion> motion_;                   // at the start
   std::vector<BodyDef> defs_;                    // of roots
   std::vector<std::vector<const Geom*>> geoms_;  // of defs_' shapes
   std::vector<BodyId> ids_;                      // of roots
   std::set<std::string> names_;                  // used so far
   Notes notes_;
+  GeomShapes shapes_{in_, notes_};
   std::map<std::pair<int, size_t>, PairGroup> pairGroups_;  // by body and geom
   Model model_;
 };
@@ -134,15 +135,8 @@ std::string Builder::nameOf(size_t body) {
   return name;
 }
 
-float Builder::narrow(double value, const std::string& where) const {
-  if (!(std::abs(value) <= std::numeric_limits<float>::max())) {
-    throw FileError(where + ": a number that follows from it is beyond the range of float");
-  }
-  return static_cast<float>(value);
-}
-
 Vec3 Builder::narrow(Vec3d v, const std::string& where) const {
-  return {narrow(v.x, where), narrow(v.y, where), narrow(v.z, where)};
+  return {mjcf::narrow(v.x, where), mjcf::narrow(v.y, where), mjcf::narrow(v.z, where)};
 }
 
 void Builder::noteWelds() {
@@ -167,31 +161,17 @@ void Builder::noteWelds() {
 void Builder::addShapes(size_t index) {
   const Body& body = in_.bodies[index];
   for (const Geom& geom : body.geoms) {
-    const auto f = [&](double v) { return narrow(v, geom.where); };
-    // Ours stand along y, MJCF's along z.
-    const Quatd yToZ{std::sqrt(0.5), std::sqrt(0.5), 0, 0};
-    Posed pose = inRoot(index) * geom.pose;
+    const auto f = [&](double v) { return mjcf::narrow(v, geom.where); };
+    const std::optional<GeomShape> made = shapes_.shape(geom);
+    if (!made) continue;
     ShapeDef shape;
-    switch (geom.kind) {
-      case GeomKind::Sphere:
-        shape.geometry = Sphere{f(geom.size.x)};
-        break;
-      case GeomKind::Capsule:
-        shape.geometry = Capsule{f(geom.size.x), f(geom.size.y)};
-        break;
-      case GeomKind::Box:
-        shape.geometry = Box{f(geom.size.x), f(geom.size.y), f(geom.size.z)};
-        break;
-      case GeomKind::Plane:
-        shape.geometry = HalfSpace{};
-        break;
-      default:
-        continue;
-    }
-    if (geom.kind == GeomKind::Capsule || geom.kind == GeomKind::Plane) pose.rotation = pose.rotation * yToZ;
-    pose.rotation = normalized(pose.rotation);
+    shape.geometry = made->geometry;
+    Posed pose = inRoot(index) * geom.pose;
+    pose.rotation = normalized(pose.rotation * made->turn);
     shape.pose = toPose(pose);
     shape.material.friction = geom.condim == 1 ? 0 : f(geom.friction);
+    if (geom.condim >= 4) shape.material.torsionalFriction = f(geom.torsional);
+    if (geom.condim == 6) shape.material.rollingFriction = f(geom.rolling);
     shape.material.frictionCombine = Combine::Maximum;
     shape.material.frictionPriority = geom.priority;
     shape.filter.category = in_.contactsOff ? 0 : static_cast<uint32_t>(geom.contype);
@@ -200,34 +180,43 @@ void Builder::addShapes(size_t index) {
     if (const auto it = pairGroups_.find({static_cast<int>(index), static_cast<size_t>(&geom - body.geoms.data())});
         it != pairGroups_.end()) {
       shape.filter.group = it->second.group;
-      if (it->second.friction >= 0) shape.material.friction = f(it->second.friction);
+      if (it->second.friction >= 0) {
+        shape.material.friction = f(it->second.friction);
+        shape.material.torsionalFriction = f(it->second.torsional);
+        shape.material.rollingFriction = f(it->second.rolling);
+      }
     }
     defs_[rootOf(index)].shapes.push_back(shape);
     geoms_[rootOf(index)].push_back(&geom);
   }
 }
 
-void Builder::failMass(size_t root) const {
-  const Body& body = in_.bodies[root];
-  const std::string& where = body.where;
-  bool known = true;
-  for (size_t i = root; i < in_.bodies.size(); ++i) {
-    if (rootOf(i) == root) known = known && in_.bodies[i].massKnown && !in_.bodies[i].partsLeftOut;
+// A body that moves and has no mass but that of parts which were left out stands still instead.
+void Builder::stopWithoutMass() {
+  for (size_t root = 1; root < in_.bodies.size(); ++root) {
+    if (rootOf(root) != root || !isDynamic(root)) continue;
+    bool known = true;
+    std::vector<Mass> parts;
+    for (size_t i = root; i < in_.bodies.size(); ++i) {
+      if (rootOf(i) != root) continue;
+      known = known && in_.bodies[i].massKnown && !in_.bodies[i].partsLeftOut;
+      parts.push_back(moved(in_.bodies[i].mass, inRoot(i)));
+    }
+    masses_[root] = sum(parts);
+    const auto p = principal(masses_[root].inertia).values;
+    if (masses_[root].mass > 0 && *std::min_element(p.begin(), p.end()) > 0) continue;
+    const std::string& where = in_.bodies[root].where;
+    if (known) throw FileError(where + ": a body that moves needs mass and inertia > 0 (geoms with mass, or inertial)");
+    clusters_.linkOf[root] = Link::Static;
+    notes_.add(where, "has no mass without the parts that are left out: stands still");
   }
-  if (known) throw FileError(where + ": a body that moves needs mass and inertia > 0 (geoms with mass, or inertial)");
-  throw FileError(where +
-                  ": the mass of a body that moves is not known, as parts of it are left out: give it an inertial");
 }
 
 void Builder::gather() {
   defs_.resize(in_.bodies.size());
   geoms_.resize(in_.bodies.size());
   pairGroups_ = pairGroups(in_, notes_);
-  std::vector<std::vector<Mass>> parts(in_.bodies.size());
-  for (size_t i = 0; i < in_.bodies.size(); ++i) {
-    addShapes(i);
-    if (isDynamic(rootOf(i))) parts[rootOf(i)].push_back(moved(in_.bodies[i].mass, inRoot(i)));
-  }
+  for (size_t i = 0; i < in_.bodies.size(); ++i) addShapes(i);
   for (size_t i = 1; i < in_.bodies.size(); ++i) {
     if (rootOf(i) != i) {
       if (isDynamic(rootOf(i)) && in_.bodies[i].gravcomp != in_.bodies[rootOf(i)].gravcomp) {
@@ -236,11 +225,9 @@ void Builder::gather() {
       continue;
     }
     if (!isDynamic(i)) continue;
-    const Mass mass = sum(parts[i]);
+    const Mass& mass = masses_[i];
     const std::string& where = in_.bodies[i].where;
-    const auto p = principal(mass.inertia).values;
-    if (!(mass.mass > 0) || !(*std::min_element(p.begin(), p.end()) > 0)) failMass(i);
-    const auto f = [&](double v) { return narrow(v, where); };
+    const auto f = [&](double v) { return mjcf::narrow(v, where); };
     const Sym3d& m = mass.inertia;
     defs_[i].massProperties = MassProperties{
         f(mass.mass), narrow(mass.center, where), {f(m.xx), f(m.yy), f(m.zz), f(m.xy), f(m.xz), f(m.yz)}};
@@ -335,6 +322,8 @@ void Builder::addExclude(const Exclude& exclude) {
 }
 
 Model Builder::build() {
+  masses_.resize(in_.bodies.size());
+  stopWithoutMass();
   noteWelds();
   gather();
   ids_.resize(in_.bodies.size());

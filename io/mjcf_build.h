@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <memory>
+#include <optional>
 
 #include "io/mjcf.h"
 #include "io/mjcf_parse.h"
@@ -26,11 +28,38 @@ std::string keyName(const Description& description, size_t key);
 
 /// What contact pairs make of a geom that the filters alone would not let collide.
 struct PairGroup {
-  int group = 0;         ///< positive
-  double friction = -1;  ///< replaces the geom's own; -1 keeps it
+  int group = 0;                      ///< positive
+  double friction = -1;               ///< replaces the geom's own; -1 keeps it
+  double torsional = 0, rolling = 0;  ///< replace the geom's own where friction does
 };
 /// By body and geom. Pairs that cannot be expressed are noted.
 std::map<std::pair<int, size_t>, PairGroup> pairGroups(const Description& description, Notes& notes);
+
+/// A geom as a shape of ours. Ours stand along y where MJCF's stand along z: `turn` is from ours to the geom's frame.
+struct GeomShape {
+  Geometry geometry;
+  Quatd turn{};
+};
+
+/// Makes shapes of geoms; hulls and height fields once for all geoms that share them.
+class GeomShapes {
+ public:
+  GeomShapes(const Description& description, Notes& notes);
+  /// Nothing for geoms that are left out, with a note. Throws FileError.
+  std::optional<GeomShape> shape(const Geom& geom);
+
+ private:
+  std::shared_ptr<const HullData> hull(const Geom& geom);
+  std::shared_ptr<const HeightFieldData> heights(const Geom& geom);
+
+  const Description& in_;
+  Notes& notes_;
+  std::vector<std::shared_ptr<const HullData>> hulls_;              // of in_.meshes
+  std::vector<std::shared_ptr<const HeightFieldData>> heightData_;  // of in_.heights
+};
+
+/// A number as the world's float; refused where it is beyond it.
+float narrow(double value, const std::string& where);
 
 Model buildModel(const Description& description, const MjcfOptions& options);
 

@@ -50,8 +50,13 @@ Sym3d unitInertia(GeomKind kind, Vec3d s) {
   }
 }
 
-Mass massOf(const Geom& geom) {
+Mass massOf(const Geom& geom, std::span<const MeshAsset> meshes) {
   if (!(geom.mass > 0)) return {};
+  if (geom.kind == GeomKind::Mesh) {
+    const MeshAsset& mesh = meshes[static_cast<size_t>(geom.asset)];
+    const Mass& unit = geom.isShell ? mesh.shell : mesh.solid;
+    return moved({geom.mass, unit.center, unit.inertia * (geom.mass / unit.mass)}, geom.pose);
+  }
   return {geom.mass, geom.pose.position, rotated(unitInertia(geom.kind, geom.size) * geom.mass, geom.pose.rotation)};
 }
 

@@ -11,8 +11,8 @@ namespace avbd::mjcf {
 double volume(GeomKind kind, Vec3d size);
 /// Inertia of the uniform solid of mass 1 about its centre, in the geom's axes.
 Sym3d unitInertia(GeomKind kind, Vec3d size);
-/// Of a geom, in its body's frame.
-Mass massOf(const Geom& geom);
+/// Of a geom, in its body's frame; `meshes` are those of its description.
+Mass massOf(const Geom& geom, std::span<const MeshAsset> meshes);
 /// Sum about the common centre.
 Mass sum(std::span<const Mass> parts);
 /// The same mass seen from the frame that `pose` is given in.

@@ -46,6 +46,8 @@ std::map<Key2, PairGroup> pairGroups(const Description& description, Notes& note
     if (ownSurface && meetsNothing(a) && meetsNothing(b)) {
       const int condim = pair.hasCondim ? pair.condim : std::max(a.condim, b.condim);
       group.friction = condim == 1 ? 0 : pair.hasFriction ? pair.friction : std::max(a.friction, b.friction);
+      if (condim >= 4) group.torsional = pair.hasFriction ? pair.torsional : std::max(a.torsional, b.torsional);
+      if (condim == 6) group.rolling = pair.hasFriction ? pair.rolling : std::max(a.rolling, b.rolling);
     } else if (ownSurface) {
       notes.add(pair.where, "contact pair: the friction of its geoms is used, not its own");
     }

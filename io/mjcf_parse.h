@@ -1,6 +1,7 @@
 // An MJCF file as plain data: defaults resolved, angles in radians, poses in the parent's frame, masses computed.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -21,6 +22,25 @@ struct Mass {
   Sym3d inertia;    ///< [kg m^2]
 };
 
+/// A mesh after refpos, refquat and scale. Unlike MuJoCo's it is not moved to its inertia frame: geoms are placed the
+/// same either way.
+struct MeshAsset {
+  std::string name, where;
+  std::vector<Vec3d> vertices;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  Mass solid;            ///< at 1 kg/m^3: its mass is the volume
+  Mass shell;            ///< at 1 kg/m^2: its mass is the area
+  int mostVertices = 0;  ///< of its hull; 0: no wish
+};
+
+struct HeightAsset {
+  std::string name, where;
+  int rows = 0, columns = 0;   ///< both 0: a kind of file that is not read
+  Vec3d radius;                ///< half extents along x and y; z: height of 1
+  double base = 0;             ///< solid down to this below 0 [m]
+  std::vector<float> heights;  ///< 0 .. 1, row by row towards +y, each towards +x
+};
+
 struct Geom {
   std::string name, where;  ///< where: `tower.xml:12: geom "a"`, for messages
   GeomKind kind = GeomKind::Sphere;
@@ -29,6 +49,9 @@ struct Geom {
   double mass = 0;
   bool massKnown = true;  ///< false where the shape is one whose volume this reader cannot compute
   double friction = 1;    ///< sliding
+  double torsional = 0.005, rolling = 0.0001;
+  int asset = -1;        ///< of Description::meshes or heights
+  bool isShell = false;  ///< meshes: mass is that of a surface
   int condim = 3, priority = 0, contype = 1, conaffinity = 1, group = 0;
 };
 
@@ -70,7 +93,7 @@ struct Pair {
   std::string where;
   GeomRef a, b;
   bool hasFriction = false, hasCondim = false;
-  double friction = 1;
+  double friction = 1, torsional = 0.005, rolling = 0.0001;
   int condim = 3;
 };
 
@@ -101,6 +124,8 @@ struct Description {
   std::vector<Pair> pairs;
   std::vector<Equality> equalities;
   std::vector<Key> keys;
+  std::vector<MeshAsset> meshes;  ///< of the file; those that no geom uses are empty
+  std::vector<HeightAsset> heights;
   size_t nq = 0, nv = 0;
   std::vector<std::string> notes;
 };

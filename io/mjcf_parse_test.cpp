@@ -117,18 +117,22 @@ TEST(MjcfParse, NotesSayWhatIsNotUsedOnceForAll) {
   EXPECT_FALSE(hasNote(d, "margin is not used (and"));
   EXPECT_TRUE(hasNote(d, "composite: left out"));
   EXPECT_TRUE(hasNote(d, "wheel: unknown element"));
-  EXPECT_TRUE(hasNote(d, "type cylinder is left out; its mass counts"));
-  EXPECT_TRUE(hasNote(d, "condim 4"));
+  EXPECT_FALSE(hasNote(d, "cylinder"));
+  EXPECT_FALSE(hasNote(d, "condim"));
 }
 
-TEST(MjcfParse, DrawingIsSilent) {
+TEST(MjcfParse, DrawingIsNotedAtMostOnce) {
   const Description d = parse(
       "<size njmax='1'/><visual><map znear='1'/></visual><statistic extent='2'/><custom><numeric name='a' "
       "data='1'/></custom>"
-      "<asset><texture name='t' builtin='flat'/><material name='m' texture='t'/></asset>"
+      "<asset><texture name='t' builtin='flat'/><texture name='u' builtin='flat'/><material name='m' "
+      "texture='t'/></asset>"
       "<worldbody><light/><camera/><site/><geom size='1' rgba='1 0 0 1' material='m' group='1' user='1 2 "
       "3'/></worldbody>");
-  EXPECT_TRUE(d.notes.empty()) << d.notes[0];
+  // One note for each kind of asset.
+  ASSERT_EQ(d.notes.size(), 2u) << d.notes[0];
+  EXPECT_EQ(d.notes[0], "t.xml:1: texture \"t\": not used: only for drawing (and 1 more)");
+  EXPECT_EQ(d.notes[1], "t.xml:1: material \"m\": not used: only for drawing");
 }
 
 TEST(MjcfParse, KeyframesAreNotUsedWherePartsAreLeftOut) {

@@ -56,7 +56,8 @@ void Parser::noteChildren(Elem section, std::string_view sectionName) {
   for (const Elem child : source_.children(section)) {
     const Section use = sectionOf(sectionName, child.name());
     if (use == Section::Noted) {
-      notes_.add(source_.where(child), "ignored", child.name());
+      const bool drawing = sectionName == "asset";
+      notes_.add(source_.where(child), drawing ? "not used: only for drawing" : "ignored", child.name());
     } else if (use == Section::Unknown) {
       notes_.add(source_.where(child), "unknown element", child.name());
     }
@@ -100,6 +101,11 @@ void Parser::readCompiler(Elem elem) {
   compiler_.boundInertia = a.number("boundinertia", compiler_.boundInertia);
   if (compiler_.boundInertia < 0) a.fail("boundinertia", "must be finite and >= 0");
   compiler_.balanceInertia = a.flag("balanceinertia", compiler_.balanceInertia);
+  if (a.has("assetdir")) compiler_.meshFolder = a.text("assetdir");
+  if (a.has("meshdir")) compiler_.meshFolder = a.text("meshdir");
+  compiler_.stripPath = a.flag("strippath", compiler_.stripPath);
+  compiler_.fitAabb = a.flag("fitaabb", compiler_.fitAabb);
+  compiler_.exactMeshInertia = a.flag("exactmeshinertia", compiler_.exactMeshInertia);
   compiler_.setTotalMass = a.number("settotalmass", compiler_.setTotalMass);
 }
 
@@ -137,6 +143,7 @@ void Parser::readFlag(Elem elem) {
 }
 
 void Parser::readAssets(Elem elem) {
+  noteChildren(elem, "asset");
   for (const Elem child : source_.children(elem)) {
     std::string name(child.get("name"));
     if (name.empty()) name = std::filesystem::path(std::string(child.get("file"))).stem().string();
@@ -144,6 +151,8 @@ void Parser::readAssets(Elem elem) {
     if (!name.empty() && !assets_[kind].insert(name).second) {
       source_.fail(child, "name", name, "another " + kind + " has this name");
     }
+    if (kind == "mesh") readMesh(child);
+    if (kind == "hfield") readHeights(child);
   }
 }
 

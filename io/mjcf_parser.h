@@ -19,6 +19,14 @@ struct Compiler {
   double boundMass = 0, boundInertia = 0;
   bool balanceInertia = false;
   double setTotalMass = -1;
+  bool stripPath = false, fitAabb = false, exactMeshInertia = false;
+  std::string meshFolder;
+};
+
+/// Where a mesh of the file comes from; read when a geom first uses it.
+struct MeshSource {
+  Attributes attributes;
+  bool isRead = false;
 };
 
 /// What an <inertial> says.
@@ -54,6 +62,19 @@ class Parser {
   void readAssets(Elem elem);
   Attributes own(Elem elem, std::string_view element);
 
+  // mjcf_parser_assets.cpp: meshes and height fields
+  std::string assetName(const Attributes& a) const;
+  std::filesystem::path assetPath(const Attributes& a);
+  void readMesh(Elem elem);
+  void readHeights(Elem elem);
+  void heightsFromFile(const Attributes& a, HeightAsset& out);
+  void heightsFromText(const Attributes& a, HeightAsset& out);
+  int meshNamed(const Attributes& a);
+  void loadMesh(const Attributes& a, MeshAsset& out);
+  void inlineMesh(const Attributes& a, MeshAsset& out) const;
+  void placeMesh(const Attributes& a, MeshAsset& out) const;
+  void weighMesh(const Attributes& a, MeshAsset& out);
+
   // mjcf_parser_bodies.cpp: the tree
   void readBodies(Elem worldbody);
   void readBodyChild(Elem elem, std::vector<OpenElem>& open);
@@ -75,6 +96,7 @@ class Parser {
   void readSurface(const Attributes& a, Geom& geom);
   void readGeomMass(const Attributes& a, Geom& geom);
   void checkReference(const Attributes& a, std::string_view attribute);
+  void readAssetShape(const Attributes& a, Geom& geom);
 
   // mjcf_parser_masses.cpp: once all bodies are known
   void finishMasses();
@@ -90,8 +112,9 @@ class Parser {
   void readEquality(Elem elem, bool weld);
   void readKeys(Elem elem);
   std::vector<double> keyNumbers(const Attributes& a, std::string_view name, size_t count);
-  int bodyNamed(const Attributes& a, std::string_view attribute) const;
-  GeomRef geomNamed(const Attributes& a, std::string_view attribute) const;
+  int bodyNamed(const Attributes& a, std::string_view attribute);
+  std::optional<GeomRef> geomNamed(const Attributes& a, std::string_view attribute);
+  bool mayBeLeftOut(const Attributes& a, std::string_view attribute);
 
   XmlSource source_;
   Notes notes_;
@@ -104,6 +127,8 @@ class Parser {
   std::map<std::string, GeomRef, std::less<>> geomByName_;
   std::set<std::string, std::less<>> jointNames_, equalityNames_, keyNames_, pairNames_, excludeNames_;
   std::map<std::string, std::set<std::string, std::less<>>, std::less<>> assets_;  // names by element
+  std::vector<MeshSource> meshSources_;                                            // of out_.meshes
+  size_t assetBytes_ = 0;
   bool coordinatesMissing_ = false;  // something left out would have brought coordinates of its own
   bool equalitiesOff_ = false;
 };

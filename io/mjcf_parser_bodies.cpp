@@ -226,8 +226,9 @@ void Parser::finishTree() {
       out_.nv += kVelocities[static_cast<size_t>(joint.kind)];
     }
     for (const Geom& geom : body.geoms) {
-      if (body.moves && geom.kind == GeomKind::Plane) {
-        throw FileError(geom.where + ": planes are only allowed in bodies that do not move", out_.fileName);
+      if (body.moves && (geom.kind == GeomKind::Plane || geom.kind == GeomKind::HeightField)) {
+        const std::string kind = geom.kind == GeomKind::Plane ? "planes" : "height fields";
+        throw FileError(geom.where + ": " + kind + " are only allowed in bodies that do not move", out_.fileName);
       }
     }
   }

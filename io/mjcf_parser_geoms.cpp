@@ -1,7 +1,9 @@
 // MJCF geoms: shape, surface, mass.
+#include <algorithm>
 #include <cmath>
 
 #include "io/mjcf_mass.h"
+#include "io/mjcf_mesh.h"
 #include "io/mjcf_parser.h"
 
 namespace avbd::mjcf {
@@ -58,11 +60,11 @@ void Parser::checkReference(const Attributes& a, std::string_view attribute) {
 void Parser::readShape(const Attributes& a, Geom& geom) {
   geom.kind = static_cast<GeomKind>(a.keyword("type", kGeomTypes, static_cast<int>(GeomKind::Sphere)));
   for (const char* attribute : {"material", "mesh", "hfield"}) checkReference(a, attribute);
-  if (geom.kind == GeomKind::Mesh) a.requiredText("mesh");
-  if (geom.kind == GeomKind::HeightField) a.requiredText("hfield");
-  // A primitive with a mesh is fitted to it, so its size is not known here either.
-  if (geom.kind != GeomKind::Mesh && geom.kind != GeomKind::Sdf && a.has("mesh")) geom.kind = GeomKind::Mesh;
   if (geom.kind == GeomKind::Plane && a.has("fromto")) a.fail("fromto", "not allowed for a plane");
+  if (geom.kind == GeomKind::HeightField ||
+      (geom.kind != GeomKind::Sdf && (geom.kind == GeomKind::Mesh || a.has("mesh")))) {
+    return readAssetShape(a, geom);
+  }
 
   const bool fromTo = a.has("fromto");
   const size_t needed = sizesNeeded(geom.kind, fromTo);
@@ -82,6 +84,35 @@ void Parser::readShape(const Attributes& a, Geom& geom) {
   } else {
     geom.pose = pose(a);
   }
+}
+
+void Parser::readAssetShape(const Attributes& a, Geom& geom) {
+  geom.pose = pose(a);
+  geom.isShell = a.flag("shellinertia", false);
+  if (geom.kind == GeomKind::HeightField) {
+    const std::string name = a.requiredText("hfield");
+    const auto& all = out_.heights;
+    const auto it = std::find_if(all.begin(), all.end(), [&](const HeightAsset& h) { return h.name == name; });
+    if (it == all.end()) a.fail("hfield", "no hfield of this name in asset");
+    geom.asset = static_cast<int>(it - all.begin());
+    return;
+  }
+  if (a.has("fromto")) a.fail("fromto", "not allowed for a mesh");
+  geom.asset = meshNamed(a);
+  const MeshAsset& mesh = out_.meshes[static_cast<size_t>(geom.asset)];
+  if (geom.kind == GeomKind::Mesh) return;
+  if (geom.kind == GeomKind::Plane) a.fail("mesh", "a plane cannot be fitted to a mesh");
+  if (!((geom.isShell ? mesh.shell : mesh.solid).mass > 0))
+    a.fail("mesh", "the mesh must have a volume to fit a shape to");
+  if (compiler_.fitAabb) {
+    fitAround(mesh, geom);
+  } else {
+    fitToInertia(mesh, geom);
+  }
+  const double scale = a.number("fitscale", 1);
+  if (!(scale > 0)) a.fail("fitscale", "must be finite and > 0");
+  geom.size = geom.size * scale;
+  geom.isShell = false;
 }
 
 void Parser::applyFromTo(const Attributes& a, Geom& geom) {
@@ -110,13 +141,11 @@ void Parser::readSurface(const Attributes& a, Geom& geom) {
     if (value < 0) a.fail("friction", "each must be finite and >= 0");
   }
   if (!friction.empty()) geom.friction = friction[0];
+  if (friction.size() > 1) geom.torsional = friction[1];
+  if (friction.size() > 2) geom.rolling = friction[2];
   geom.condim = a.integer("condim", 3);
   if (geom.condim != 1 && geom.condim != 3 && geom.condim != 4 && geom.condim != 6) {
     a.fail("condim", "must be 1, 3, 4 or 6");
-  }
-  if (geom.condim > 3) {
-    notes_.add(geom.where,
-               "condim " + std::to_string(geom.condim) + ": no torsional or rolling friction, only sliding");
   }
   geom.priority = a.integer("priority", 0);
   geom.contype = a.integer("contype", 1);
@@ -128,21 +157,16 @@ void Parser::readGeomMass(const Attributes& a, Geom& geom) {
   const double density = a.number("density", 1000), mass = a.number("mass", -1);
   if (density < 0) a.fail("density", "must be finite and >= 0");
   if (a.has("mass") && mass < 0) a.fail("mass", "must be finite and >= 0");
-  const double space = volume(geom.kind, geom.size);
-  geom.mass = space > 0 ? (a.has("mass") ? mass : density * space) : 0;
-  const bool isSolid = geom.kind == GeomKind::Mesh || geom.kind == GeomKind::Sdf;
-  geom.massKnown = !isSolid || (a.has("mass") ? mass == 0 : density == 0);
-  if (a.flag("shellinertia", false)) {
+  double space = volume(geom.kind, geom.size);
+  if (geom.kind == GeomKind::Mesh) {
+    const MeshAsset& mesh = out_.meshes[static_cast<size_t>(geom.asset)];
+    space = (geom.isShell ? mesh.shell : mesh.solid).mass;
+  } else if (a.flag("shellinertia", false)) {
     notes_.add(geom.where, "shellinertia: the inertia of the solid is used");
   }
-  const bool canCollide = geom.kind == GeomKind::Plane || geom.kind == GeomKind::Sphere ||
-                          geom.kind == GeomKind::Capsule || geom.kind == GeomKind::Box;
-  if (canCollide) return;
-  const std::string type(kGeomTypes[static_cast<size_t>(geom.kind)]);
-  notes_.add(geom.where, "type " + type + " is left out" +
-                             (isSolid         ? ", and its mass"
-                              : geom.mass > 0 ? "; its mass counts"
-                                              : ""));
+  geom.mass = space > 0 ? (a.has("mass") ? mass : density * space) : 0;
+  geom.massKnown = geom.kind != GeomKind::Sdf || (a.has("mass") ? mass == 0 : density == 0);
+  if (geom.kind == GeomKind::Sdf) notes_.add(geom.where, "type sdf is left out, and its mass");
 }
 
 }  // namespace avbd::mjcf

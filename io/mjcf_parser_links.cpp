@@ -6,16 +6,28 @@
 
 namespace avbd::mjcf {
 
-int Parser::bodyNamed(const Attributes& a, std::string_view attribute) const {
-  const auto it = bodyByName_.find(a.requiredText(attribute));
-  if (it == bodyByName_.end()) a.fail(attribute, "no body has this name");
-  return it->second;
+// A name that nothing here has may be that of a part that was left out.
+bool Parser::mayBeLeftOut(const Attributes& a, std::string_view attribute) {
+  if (!coordinatesMissing_) return false;
+  notes_.add(
+      source_.where(a.elem()),
+      "left out: " + std::string(attribute) + " " + mjcf::quoted(a.text(attribute)) + " may be among what was left out",
+      a.elem().name());
+  return true;
 }
 
-GeomRef Parser::geomNamed(const Attributes& a, std::string_view attribute) const {
+int Parser::bodyNamed(const Attributes& a, std::string_view attribute) {
+  const auto it = bodyByName_.find(a.requiredText(attribute));
+  if (it != bodyByName_.end()) return it->second;
+  if (mayBeLeftOut(a, attribute)) return -1;
+  a.fail(attribute, "no body has this name");
+}
+
+std::optional<GeomRef> Parser::geomNamed(const Attributes& a, std::string_view attribute) {
   const auto it = geomByName_.find(a.requiredText(attribute));
-  if (it == geomByName_.end()) a.fail(attribute, "no geom has this name");
-  return it->second;
+  if (it != geomByName_.end()) return it->second;
+  if (mayBeLeftOut(a, attribute)) return {};
+  a.fail(attribute, "no geom has this name");
 }
 
 void Parser::readContact(Elem elem) {
@@ -29,7 +41,8 @@ void Parser::readContact(Elem elem) {
 void Parser::readExclude(Elem elem) {
   const Attributes a = own(elem, "exclude");
   nameOnce(a, excludeNames_);
-  out_.excludes.push_back({source_.where(elem), bodyNamed(a, "body1"), bodyNamed(a, "body2")});
+  const int bodyA = bodyNamed(a, "body1"), bodyB = bodyNamed(a, "body2");
+  if (bodyA >= 0 && bodyB >= 0) out_.excludes.push_back({source_.where(elem), bodyA, bodyB});
 }
 
 void Parser::readPair(Elem elem) {
@@ -38,8 +51,7 @@ void Parser::readPair(Elem elem) {
   nameOnce(a, pairNames_);
   Pair pair;
   pair.where = source_.where(elem);
-  pair.a = geomNamed(a, "geom1");
-  pair.b = geomNamed(a, "geom2");
+  const std::optional<GeomRef> first = geomNamed(a, "geom1"), second = geomNamed(a, "geom2");
   pair.condim = a.integer("condim", 3);
   pair.hasCondim = a.has("condim");
   if (pair.condim != 1 && pair.condim != 3 && pair.condim != 4 && pair.condim != 6) {
@@ -51,6 +63,11 @@ void Parser::readPair(Elem elem) {
   }
   pair.hasFriction = !friction.empty();
   if (pair.hasFriction) pair.friction = friction[0];
+  if (friction.size() > 2) pair.torsional = friction[2];
+  if (friction.size() > 3) pair.rolling = friction[3];
+  if (!first || !second) return;
+  pair.a = *first;
+  pair.b = *second;
   out_.pairs.push_back(pair);
 }
 
@@ -74,6 +91,7 @@ void Parser::readEquality(Elem elem, bool weld) {
   equality.weld = weld;
   equality.bodyA = bodyNamed(a, "body1");
   equality.bodyB = a.has("body2") ? bodyNamed(a, "body2") : 0;
+  if (equality.bodyA < 0 || equality.bodyB < 0) return;
   if (equality.bodyA == equality.bodyB) a.fail(a.has("body2") ? "body2" : "body1", "must be two different bodies");
   if (!weld && !a.has("anchor")) a.fail("anchor", "must be 3 numbers");
   equality.anchor = vector(a, "anchor", {});

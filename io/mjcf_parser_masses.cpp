@@ -22,7 +22,7 @@ void Parser::finishMass(size_t index) {
   bool known = true, any = false;
   for (const Geom& geom : body.geoms) {
     if (geom.group < compiler_.groupFirst || geom.group > compiler_.groupLast) continue;
-    parts.push_back(massOf(geom));
+    parts.push_back(massOf(geom, out_.meshes));
     known = known && geom.massKnown;
     any = true;
   }

@@ -108,7 +108,8 @@ TEST(Mjcf, ACapsuleLiesAlongItsZ) {
 TEST(Mjcf, SurfacesAndFilters) {
   const Model model = read(
       "<worldbody><geom size='1' friction='.3 1 1' priority='2' contype='6' conaffinity='4294967295'/>"
-      "<geom size='1' condim='1'/></worldbody>");
+      "<geom size='1' condim='1'/><geom size='1' friction='1 .2 .3' condim='4'/>"
+      "<geom size='1' friction='1 .2 .3' condim='6'/><geom size='1' condim='6'/></worldbody>");
   const auto shapes = model.world.shapes(model.bodies[0].id);
   const Material material = model.world.material(shapes[0]);
   EXPECT_FLOAT_EQ(material.friction, 0.3f);
@@ -120,6 +121,11 @@ TEST(Mjcf, SurfacesAndFilters) {
   EXPECT_EQ(filter.mask, 0xffffffffu);
   EXPECT_TRUE(filter.anyMask);
   EXPECT_EQ(model.world.material(shapes[1]).friction, 0);
+  const float torsional[] = {0, 0, 0.2f, 0.2f, 0.005f}, rolling[] = {0, 0, 0, 0.3f, 0.0001f};
+  for (size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(model.world.material(shapes[i]).torsionalFriction, torsional[i]) << i;
+    EXPECT_EQ(model.world.material(shapes[i]).rollingFriction, rolling[i]) << i;
+  }
 }
 
 TEST(Mjcf, BodiesWithoutJointsOfOursArePartOfTheirParent) {
@@ -254,7 +260,6 @@ TEST(Mjcf, RefusedByTheWorldWithThePlaceInTheFile) {
   expectRefused(body("<geom size='1' mass='0'/>"), "needs mass and inertia > 0");
   expectRefused(body("<inertial pos='0 0 0' mass='1'/>"), "needs mass and inertia > 0");
   expectRefused(body("<inertial pos='0 0 0' mass='0' diaginertia='1 1 1'/>"), "needs mass and inertia > 0");
-  expectRefused(body("<composite/>"), "parts of it are left out: give it an inertial");
   expectRefused(body("<geom size='1'/><geom size='1e-9'/>"), "t.xml:4: body \"b\" > geom: BodyDef.shapes[1]");
   expectRefused(body("<geom size='1e14'/>"), "t.xml:3: body \"b\"");
   expectRefused(body("<geom size='1' pos='1e12 0 0'/>"), "t.xml:");
@@ -263,6 +268,24 @@ TEST(Mjcf, RefusedByTheWorldWithThePlaceInTheFile) {
       "t.xml:4: body \"b\" > geom: BodyDef.shapes[0]");
   expectRefused("<worldbody><body name='b' pos='1e14 0 0'><freejoint/><geom size='1'/></body></worldbody>",
                 "t.xml:1: body \"b\": BodyDef.position");
+}
+
+TEST(Mjcf, ABodyWithoutMassButThatOfPartsLeftOutStandsStill) {
+  Model model = read(
+      "<worldbody><body name='a' pos='0 0 3'><freejoint/><composite type='cloth'/><body name='c' pos='1 0 0'>"
+      "<joint type='ball'/><geom size='.1'/></body></body><body name='b'><freejoint/><composite/><geom "
+      "size='.1'/></body>"
+      "</worldbody><contact><exclude body1='a' body2='B0_0'/></contact>"
+      "<equality><connect body1='B0_0' body2='b' anchor='0 0 0'/></equality>");
+  EXPECT_EQ(model.world.type(bodyOf(model, "a")), BodyType::Static);
+  EXPECT_EQ(model.world.type(bodyOf(model, "b")), BodyType::Dynamic);
+  EXPECT_TRUE(hasNote(model, "body \"a\": has no mass without the parts that are left out: stands still"));
+  EXPECT_TRUE(hasNote(model, "body2 \"B0_0\" may be among what was left out"));
+  EXPECT_TRUE(hasNote(model, "body1 \"B0_0\" may be among what was left out"));
+  EXPECT_EQ(model.world.jointCount(), 1u);
+  for (int i = 0; i < 10; ++i) model.world.step(1.0f / 60);
+  expectVector(model.world.pose(bodyOf(model, "a")).position, {0, 0, 3});
+  expectVector(model.world.pose(bodyOf(model, "c")).position, {1, 0, 3}, 1e-3);
 }
 
 TEST(Mjcf, TheShowcase) {

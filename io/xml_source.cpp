@@ -168,6 +168,8 @@ void XmlSource::include(Elem elem) {
   included_[elem.node.internal_object()] = index;
 }
 
+std::optional<fs::path> XmlSource::folder() const { return paths_[0].empty() ? std::optional<fs::path>{} : folder_; }
+
 Elem XmlSource::root() const { return {files_[0]->document.document_element(), 0}; }
 
 std::vector<Elem> XmlSource::children(Elem parent) const {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
@@ -30,6 +31,8 @@ class XmlSource {
   static XmlSource fromFile(const std::filesystem::path& file);
   static XmlSource fromText(std::string_view text, std::string_view name);
 
+  /// That of the main file; nothing where the source is text.
+  std::optional<std::filesystem::path> folder() const;
   Elem root() const;
   /// Child elements in order, includes replaced by what they hold.
   std::vector<Elem> children(Elem parent) const;

@@ -20,14 +20,19 @@ Model tower10(const Settings& settings, Scale scale = {});
 Model heavyOnLight(const Settings& settings, float mass, Scale scale = {});
 Model slidingBox(const Settings& settings, float mu, Vec3 velocity, Scale scale = {});
 Model pyramid10(const Settings& settings);
+/// A semicircle of equal stones, mean radius 3 m, thickness 0.6 m; body 0 is the ground.
+inline constexpr int kVoussoirs = 15;
+Model archOfVoussoirs(const Settings& settings);
 
 std::vector<Line> restLines();
 std::vector<Line> frictionLines();
 std::vector<Line> motionLines();
 std::vector<Line> collisionLines();
+std::vector<Line> shapeLines();
 std::vector<Line> scaleLines();
 std::vector<Line> jointLines();
 std::vector<Line> stateLines();
+std::vector<Line> badInputLines();
 /// What is not built yet, by name.
 std::vector<Line> skippedLines();
 

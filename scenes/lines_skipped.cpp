@@ -12,8 +12,6 @@ void skip(std::vector<Line>& list, const char* group, std::initializer_list<cons
 
 std::vector<Line> skippedLines() {
   std::vector<Line> list;
-  skip(list, "R", {"arch"}, "convex hulls are not built yet");
-  skip(list, "R", {"ghost_edges"}, "triangle meshes and height fields are not built yet");
   skip(list, "R", {"bullet"}, "continuous collision is not built yet");
   skip(list, "J",
        {"limits", "drive_force", "drive_accel", "drive_types", "motor", "gear", "rack", "mimic", "pendulum",
@@ -31,7 +29,6 @@ std::vector<Line> skippedLines() {
         "self", "inverted", "attach", "mixed"},
        "cloth and soft bodies are not built yet");
   skip(list, "D", {"rollback"}, "snapshots are not built yet");
-  skip(list, "D", {"bad_input"}, "the corpus is not collected yet; unit tests refuse bad definitions and files");
   skip(list, "D", {"asleep"}, "sleep is not built yet");
   skip(list, "D", {"soak"}, "a million steps are not run yet");
   return list;

@@ -1,4 +1,6 @@
 // Acceptance, state: the same bits, islands that do not know of each other, creating and destroying in a run.
+#include <avbd/mesh.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -153,11 +155,47 @@ std::vector<Figure> churn(const Settings& settings) {
           holds("finite", first.finite)};
 }
 
+// Boxes and balls on a turning mesh of waves, with a trigger, events, a hook, and friction against turning.
+Model wavesModel(const Settings& settings) {
+  Build build("waves", settings, {.moveEvents = true});
+  std::vector<Vec3> vertices;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  constexpr uint32_t kSide = 9;
+  for (uint32_t i = 0; i < kSide * kSide; ++i) {
+    const uint32_t x = i % kSide, z = i / kSide;
+    const float height = 0.1f * static_cast<float>((x + z) % 3);
+    vertices.push_back({0.5f * static_cast<float>(x) - 2, height, 0.5f * static_cast<float>(z) - 2});
+    if (x + 1 == kSide || z + 1 == kSide) continue;
+    triangles.push_back({i, i + kSide, i + kSide + 1});
+    triangles.push_back({i, i + kSide + 1, i + 1});
+  }
+  BodyDef waves;
+  waves.type = BodyType::Kinematic;
+  waves.angularVelocity = {0, 0.1f, 0};
+  waves.shapes.push_back({.geometry = Mesh{makeMesh({.vertices = vertices, .triangles = triangles})}});
+  waves.shapes.push_back({.geometry = Sphere{0.6f}, .pose = {{0, 0.4, 0}, {}}, .isTrigger = true});
+  build.add("waves", waves);
+  for (int i = 0; i < 6; ++i) {
+    BodyDef thing;
+    thing.position = {0.7 * (i % 3) - 0.7, 0.6, 0.7 * (i / 3) - 0.3};
+    thing.shapes.push_back({.geometry = i % 2 ? Geometry(Sphere{0.25f}) : Geometry(Box{0.3f, 0.2f, 0.25f}),
+                            .hitEvents = true,
+                            .contactHook = true});
+    build.add("thing", thing);
+  }
+  build.world().setContactHook([](ContactPlan& plan) {
+    plan.rollingFriction = plan.torsionalFriction = 0.05f;
+    plan.inverseMassScaleA = 0.5f;
+    return true;
+  });
+  return build.take();
+}
+
 // A settled scene's steps, after as many as it takes for every buffer to have grown.
 std::vector<Figure> noAllocation(const Settings& settings) {
   std::vector<Figure> figures;
-  for (const char* name : {"stacks", "chain", "card_house", "heavy_on_light"}) {
-    Model model = find(name)->make(settings);
+  for (const char* name : {"stacks", "chain", "card_house", "heavy_on_light", "waves"}) {
+    Model model = std::string(name) == "waves" ? wavesModel(settings) : find(name)->make(settings);
     for (int i = 0; i < 120; ++i) model.world.step(static_cast<float>(kDt));
     const uint64_t before = allocationCount()();
     for (int i = 0; i < 60; ++i) model.world.step(static_cast<float>(kDt));

@@ -8,12 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/penetration_convex.h"
+
 namespace avbd::scenes {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-enum class Kind : uint8_t { Sphere, Capsule, Box, HalfSpace };
+enum class Kind : uint8_t { Sphere, Capsule, Box, Convex, Surface, HalfSpace };
 
 Vec3d crossProduct(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
@@ -25,6 +27,8 @@ struct Solid {
   Vec3d half;  // of a box; of a capsule only y
   double radius = 0;
   Vec3d lower, upper;
+  ConvexBody convex;                // of what is not exact below
+  std::vector<ConvexBody> surface;  // triangles
 };
 
 std::array<Vec3d, 3> axesOf(Quat q) {
@@ -33,6 +37,26 @@ std::array<Vec3d, 3> axesOf(Quat q) {
   return {Vec3d{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
           Vec3d{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
           Vec3d{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+}
+
+// A shape that only trying directions can measure.
+Solid toGeneralSolid(const PlacedShape& shape, Solid s) {
+  s.surface = surfaceBodies(shape.geometry, shape.pose);
+  if (s.surface.empty()) {
+    s.convex = convexBody(shape.geometry, shape.pose);
+    s.lower = s.convex.lower();
+    s.upper = s.convex.upper();
+    return s;
+  }
+  s.kind = Kind::Surface;
+  s.lower = {kInfinity, kInfinity, kInfinity};
+  s.upper = {-kInfinity, -kInfinity, -kInfinity};
+  for (const ConvexBody& t : s.surface) {
+    const Vec3d low = t.lower(), high = t.upper();
+    s.lower = {std::min(s.lower.x, low.x), std::min(s.lower.y, low.y), std::min(s.lower.z, low.z)};
+    s.upper = {std::max(s.upper.x, high.x), std::max(s.upper.y, high.y), std::max(s.upper.z, high.z)};
+  }
+  return s;
 }
 
 Solid toSolid(const PlacedShape& shape) {
@@ -48,9 +72,11 @@ Solid toSolid(const PlacedShape& shape) {
   } else if (const auto* box = std::get_if<Box>(&shape.geometry)) {
     s.kind = Kind::Box;
     s.half = {box->x, box->y, box->z};
+    if (box->rounding > 0) s.kind = Kind::Convex;
   } else {
-    s.kind = Kind::HalfSpace;
+    s.kind = std::holds_alternative<HalfSpace>(shape.geometry) ? Kind::HalfSpace : Kind::Convex;
   }
+  if (s.kind == Kind::Convex) return toGeneralSolid(shape, s);
   const auto reach = [&](double Vec3d::*c) {
     if (s.kind == Kind::HalfSpace) return kInfinity;
     return s.radius + std::abs(s.axis[0].*c) * s.half.x + std::abs(s.axis[1].*c) * s.half.y +
@@ -148,7 +174,8 @@ double capsuleBox(const Solid& capsule, const Solid& box) {
   const Vec3d arm = capsule.axis[1] * capsule.half.y;
   const Vec3d from = toLocal(box, capsule.center - arm), to = toLocal(box, capsule.center + arm);
   const double distance = segmentBoxDistance(from, to - from, box.half);
-  if (distance > 0) return capsule.radius - distance;
+  // Where the segment goes in, rounding may leave a distance.
+  if (distance > 1e-12 * length(box.half)) return capsule.radius - distance;
   return capsule.radius + std::max(0.0, axisDepth(box, capsule));
 }
 
@@ -164,13 +191,34 @@ double segmentDistance(const Solid& a, const Solid& b) {
   return length(r + u * s - v * t);
 }
 
+// A simple solid as one that can be measured against any.
+ConvexBody generalBody(const Solid& s) {
+  if (s.kind == Kind::Convex) return s.convex;
+  ConvexBody body;
+  body.center = s.center;
+  body.radius = s.radius;
+  for (int i = 0; i < 3; ++i) body.axis[i] = s.axis[static_cast<size_t>(i)];
+  const bool flat = s.kind == Kind::Box;
+  for (int k = 0; k < 8; ++k) {
+    if (!flat && (k & 5 || (k & 2 && s.half.y == 0))) continue;
+    body.corners.push_back(s.center + s.axis[0] * (k & 1 ? s.half.x : -s.half.x) +
+                           s.axis[1] * (k & 2 ? s.half.y : -s.half.y) + s.axis[2] * (k & 4 ? s.half.z : -s.half.z));
+  }
+  if (flat) body.normals = body.edges = {s.axis[0], s.axis[1], s.axis[2]};
+  if (s.kind == Kind::Capsule) body.edges = {s.axis[1]};
+  return body;
+}
+
 double depthOf(const Solid& a, const Solid& b) {
   if (a.kind > b.kind) return depthOf(b, a);
   if (b.kind == Kind::HalfSpace) {
-    if (a.kind == Kind::HalfSpace) return 0;
+    if (a.kind == Kind::HalfSpace || a.kind == Kind::Surface) return 0;
     const Vec3d n = b.axis[1];
+    if (a.kind == Kind::Convex) return a.convex.radius + a.convex.reach(n * -1) + dot(n, b.center);
     return a.radius + coreReach(a, n) - dot(n, a.center - b.center);
   }
+  if (b.kind == Kind::Surface) return a.kind == Kind::Surface ? 0 : surfaceDepth(generalBody(a), b.surface);
+  if (b.kind == Kind::Convex) return convexDepth(generalBody(a), b.convex);
   if (a.kind == Kind::Box) return axisDepth(a, b);
   if (b.kind == Kind::Box) return a.kind == Kind::Sphere ? sphereBox(a, b) : capsuleBox(a, b);
   return a.radius + b.radius - segmentDistance(a, b);

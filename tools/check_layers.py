@@ -6,7 +6,7 @@ import re
 from source_tree import files, finish, root_from_args
 
 # Inside src/: a file may include folders of its own or a lower rank.
-RANK = {"base": 0, "lane": 0, "rows": 1, "geom": 2, "collide": 3, "world": 4, "solve": 5, "step": 5, "api": 6}
+RANK = {"base": 0, "lane": 0, "rows": 1, "geom": 2, "collide": 3, "world": 4, "query": 5, "solve": 5, "step": 5, "api": 6}
 
 # Around the library: what each folder may include besides the public headers and itself.
 AROUND = {
@@ -15,7 +15,7 @@ AROUND = {
     "scenes": {"scenes", "io"},
     "bench": {"bench", "scenes", "io"},
     "app": {"app", "bench", "scenes", "viewer", "io"},
-    "samples": {"samples"},
+    "samples": {"samples", "io"},
 }
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<(avbd/[^>]+)>)', re.M)

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "io/record/content.h"
 #include "viewer/encode.h"
+#include "viewer/surface.h"
 
 namespace avbd {
 
@@ -206,28 +209,31 @@ void writeBodies(Head& head, const Recording& r, const Tracks& tracks) {
   head.numbers("ranges", ranges);
 }
 
-struct PlainShape {
-  uint8_t kind;
-  Vec3 size;
-};
-PlainShape plain(const Sphere& s) { return {0, {s.radius, 0, 0}}; }
-PlainShape plain(const Capsule& s) { return {1, {s.radius, s.halfHeight, 0}}; }
-PlainShape plain(const Box& s) { return {2, {s.x, s.y, s.z}}; }
-PlainShape plain(const HalfSpace&) { return {3, {}}; }
-template <class Other>
-PlainShape plain(const Other&) {
-  return {0, {}};
-}
+using Size = std::array<float, 4>;
+Size sizeOf(const Sphere& s) { return {s.radius}; }
+Size sizeOf(const Capsule& s) { return {s.radius, s.halfHeight}; }
+Size sizeOf(const Box& s) { return {s.x, s.y, s.z, s.rounding}; }
+Size sizeOf(const HalfSpace&) { return {}; }
+Size sizeOf(const Cylinder& s) { return {s.radius, s.halfHeight, 0, s.rounding}; }
+Size sizeOf(const Cone& s) { return {s.radius, s.halfHeight, 0, s.rounding}; }
+Size sizeOf(const Ellipsoid& s) { return {s.x, s.y, s.z}; }
+Size sizeOf(const Hull& s) { return {s.scale.x, s.scale.y, s.scale.z, s.rounding}; }
+Size sizeOf(const Mesh& s) { return {s.scale.x, s.scale.y, s.scale.z}; }
+Size sizeOf(const HeightField& s) { return {s.scale.x, s.scale.y, s.scale.z}; }
 
 void writeShapes(Head& head, const Recording& r) {
   std::vector<uint32_t> bodies;
-  std::vector<uint8_t> kinds;
+  std::vector<uint8_t> kinds, triggers;
+  std::vector<int32_t> numbers;
   std::vector<float> sizes, poses;
+  record::Surfaces surfaces;
   for (const RecordedShape& shape : r.shapes) {
-    const PlainShape p = std::visit([](const auto& geometry) { return plain(geometry); }, shape.geometry);
+    const Size size = std::visit([](const auto& geometry) { return sizeOf(geometry); }, shape.geometry);
     bodies.push_back(shape.body);
-    kinds.push_back(p.kind);
-    append(sizes, p.size);
+    kinds.push_back(static_cast<uint8_t>(shape.geometry.index()));  // src/recording.js: kKinds
+    triggers.push_back(shape.trigger ? 1 : 0);
+    numbers.push_back(static_cast<int32_t>(surfaces.add(shape.geometry)));
+    sizes.insert(sizes.end(), size.begin(), size.end());
     append(poses, toFloat(shape.pose.position));
     append(poses, shape.pose.rotation);
   }
@@ -235,6 +241,9 @@ void writeShapes(Head& head, const Recording& r) {
   head.numbers("shapeKinds", kinds);
   head.numbers("shapeSizes", sizes);
   head.numbers("shapePoses", poses);
+  head.numbers("shapeSurfaces", numbers);
+  head.numbers("shapeTriggers", triggers);
+  head.list("surfaces", surfaces.all(), [](std::ostream& out, const auto& data) { page::writeSurface(out, data); });
 }
 
 void writeJoints(Head& head, const Recording& r) {
@@ -258,7 +267,7 @@ void writeFigures(Head& head, const Recording& r, size_t contactsKept) {
     energy.push_back(static_cast<float>(f.kineticEnergy));
     penetration.push_back(static_cast<float>(f.penetrationMax));
     gap.push_back(static_cast<float>(f.jointGapMax));
-    all.push_back(static_cast<uint32_t>(f.contacts.size()));
+    all.push_back(static_cast<uint32_t>(f.contacts.size()) + f.contactsLeftOut);
     kept.push_back(static_cast<uint32_t>(std::min(f.contacts.size(), contactsKept)));
   }
   head.numbers("times", times);
@@ -305,11 +314,15 @@ void writeFrames(std::ostream& out, const Recording& r, const Tracks& tracks, si
   flush(r.frames.size());
 }
 
-void writeHead(std::ostream& out, const Recording& r, const Tracks& tracks, Vec3d origin, size_t contactsKept) {
-  Head head(out);
+void writePlace(Head& head, const Recording& r, Vec3d origin) {
   head.text("title", r.title);
   head.numbers("up", std::vector<float>{r.up.x, r.up.y, r.up.z});
   head.numbers("origin", std::vector<double>{origin.x, origin.y, origin.z});
+}
+
+void writeHead(std::ostream& out, const Recording& r, const Tracks& tracks, Vec3d origin, size_t contactsKept) {
+  Head head(out);
+  writePlace(head, r, origin);
   std::vector<double> contactRange;
   for (const Range& axis : contactRanges(r)) contactRange.insert(contactRange.end(), {axis.low, axis.step});
   head.numbers("contactRange", contactRange);
@@ -319,14 +332,32 @@ void writeHead(std::ostream& out, const Recording& r, const Tracks& tracks, Vec3
   writeFigures(head, r, contactsKept);
 }
 
-// The policy lets the page reach nothing but itself.
+/// All bodies that could move have a track.
+Tracks liveTracks(const Recording& r, Vec3d origin) {
+  Tracks t;
+  for (uint32_t body = 0; body < r.bodies.size(); ++body) {
+    const bool moves = r.bodies[body].type != BodyType::Static;
+    t.trackOfBody.push_back(moves ? static_cast<int32_t>(t.bodies.size()) : -1);
+    if (moves) {
+      t.bodies.push_back(body);
+      continue;
+    }
+    const Pose& pose = r.frames[0].poses[body];
+    append(t.stillPoses, toFloat(finite(pose.position) ? pose.position - origin : Vec3d{}));
+    append(t.stillPoses, pose.rotation);
+  }
+  return t;
+}
+
+// The policy lets the page reach nothing but itself, and a live one the server that it came from.
 constexpr char kTop[] = R"(<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="generator" content="avbd">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:)";
+constexpr char kTitle[] = R"(">
 <title>)";
 constexpr char kMiddle[] = R"(</title>
 <style>html{background:#12161c;color:#d7dee8;font-family:system-ui,sans-serif}@media(prefers-color-scheme:light){html{background:#eef1f5;color:#1d2530}}</style>
@@ -343,7 +374,7 @@ void writePage(std::ostream& out, const Recording& recording, const PageOptions&
   const Vec3d origin = originOf(recording);
   const Tracks tracks = findTracks(recording, origin);
   const size_t contactsKept = contactsPerFrame(recording, options.contactsMax);
-  out << kTop << page::htmlText(recording.title.empty() ? "AVBD" : recording.title) << kMiddle;
+  out << kTop << kTitle << page::htmlText(recording.title.empty() ? "AVBD" : recording.title) << kMiddle;
   writeHead(out, recording, tracks, origin, contactsKept);
   out << "</script>\n";
   writeFrames(out, recording, tracks, contactsKept);
@@ -357,6 +388,29 @@ void writePage(const std::filesystem::path& file, const Recording& recording, co
   writePage(out, recording, options);
   out.close();
   if (!out) throw std::runtime_error(file.string() + ": could not be written");
+}
+
+void writeLivePage(std::ostream& out, uint16_t port) {
+  out << kTop << "; connect-src 'self' ws://127.0.0.1:" << port << " ws://localhost:" << port << kTitle << "AVBD"
+      << kMiddle << "{\"live\":true}</script>\n<script>" << viewerScript() << "</script>\n</body>\n</html>\n";
+}
+
+page::LiveHead page::liveHead(const Recording& recording) {
+  check(recording);
+  const Vec3d origin = originOf(recording);
+  std::ostringstream out;
+  {
+    Head head(out);
+    writePlace(head, recording, origin);
+    head.numbers("contactRange", std::vector<double>{});
+    writeBodies(head, recording, liveTracks(recording, origin));
+    writeShapes(head, recording);
+    writeJoints(head, recording);
+    Recording none;
+    none.report = recording.report;
+    writeFigures(head, none, 0);
+  }
+  return {out.str(), origin};
 }
 
 }  // namespace avbd

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <ostream>
 
-#include "viewer/recording.h"
+#include "io/record/recording.h"
 
 namespace avbd {
 
@@ -19,4 +19,17 @@ struct PageOptions {
 void writePage(const std::filesystem::path& file, const Recording& recording, const PageOptions& options = {});
 void writePage(std::ostream& out, const Recording& recording, const PageOptions& options = {});
 
+/// The page with no recording in it: it asks the server it came from, at this port, for everything.
+void writeLivePage(std::ostream& out, uint16_t port);
+
+namespace page {
+
+struct LiveHead {
+  std::string json;
+  Vec3d origin;  ///< positions that the page is sent are relative to this
+};
+/// The head of a page whose frames are sent one by one. The recording must hold its first frame.
+LiveHead liveHead(const Recording& recording);
+
+}  // namespace page
 }  // namespace avbd

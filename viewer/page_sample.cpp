@@ -1,4 +1,5 @@
-// Writes made-up recordings for the browser test: page_sample FILE.html [pyramid | pile | hostile].
+// Writes made-up recordings for the browser test: page_sample FILE.html [pyramid | pile | hostile | shapes].
+#include <array>
 #include <cmath>
 #include <iostream>
 
@@ -163,16 +164,96 @@ Recording hostile() {
   return r;
 }
 
+/// A pebble.
+std::shared_ptr<const HullData> pebble() {
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 14; ++i) {
+    const float angle = 2.4f * static_cast<float>(i), y = -0.45f + 0.069f * static_cast<float>(i);
+    const float wide = 0.55f * std::sqrt(1 - 2.5f * y * y);
+    corners.push_back({wide * std::cos(angle), y, wide * std::sin(angle)});
+  }
+  return makeHull({corners});
+}
+
+/// A torus.
+std::shared_ptr<const MeshData> torus() {
+  std::vector<Vec3> ring;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  for (uint32_t i = 0; i < 24; ++i) {
+    for (uint32_t k = 0; k < 12; ++k) {
+      const float u = 0.2617994f * static_cast<float>(i), v = 0.5235988f * static_cast<float>(k);
+      const float wide = 0.4f + 0.15f * std::cos(v);
+      ring.push_back({wide * std::cos(u), 0.15f * std::sin(v), wide * std::sin(u)});
+      const uint32_t a = 12 * i + k, b = 12 * i + (k + 1) % 12, c = 12 * ((i + 1) % 24) + k;
+      triangles.push_back({a, b, c});
+      triangles.push_back({b, 12 * ((i + 1) % 24) + (k + 1) % 12, c});
+    }
+  }
+  return makeMesh({ring, triangles});
+}
+
+std::shared_ptr<const HeightFieldData> waves() {
+  std::vector<float> heights;
+  for (int row = 0; row < 24; ++row)
+    for (int column = 0; column < 40; ++column)
+      heights.push_back(0.25f * std::sin(0.5f * static_cast<float>(column)) * std::cos(0.4f * static_cast<float>(row)));
+  return makeHeightField({.columns = 40, .rows = 24, .spacingX = 0.25f, .spacingZ = 0.15f, .heights = heights});
+}
+
+/// Every type of shape in a row, round and sharp, mirrored and translucent; y is up.
+Recording shapesRun() {
+  Recording r;
+  r.title = "Every shape";
+  add(r, "ground", BodyType::Static, HalfSpace{});
+  const auto hull = pebble();
+  const auto mesh = torus();
+  const std::pair<const char*, Geometry> all[] = {
+      {"sphere", Sphere{0.5f}},
+      {"capsule", Capsule{0.3f, 0.3f}},
+      {"box", Box{0.4f, 0.4f, 0.4f}},
+      {"box_rounded", Box{0.25f, 0.25f, 0.25f, 0.2f}},
+      {"cylinder", Cylinder{0.45f, 0.4f}},
+      {"cylinder_rounded", Cylinder{0.3f, 0.3f, 0.15f}},
+      {"cone", Cone{0.5f, 0.5f}},
+      {"cone_rounded", Cone{0.35f, 0.3f, 0.12f}},
+      {"ellipsoid", Ellipsoid{0.55f, 0.25f, 0.4f}},
+      {"hull", Hull{hull}},
+      {"hull_mirrored", Hull{hull, {-0.9f, 1.1f, 0.9f}}},
+      {"hull_rounded", Hull{hull, {0.75f, 0.75f, 0.75f}, 0.12f}},
+      {"ring", Mesh{mesh}},
+      {"ring_scaled", Mesh{mesh, {0.8f, 2, 0.8f}}},
+  };
+  for (const auto& [name, geometry] : all) add(r, name, BodyType::Dynamic, geometry);
+  r.shapes.push_back({add(r, "gate", BodyType::Static, Box{0.6f, 0.9f, 0.6f}), Sphere{0.2f}, {{0, 1.2, 0}, {}}, true});
+  r.shapes[r.shapes.size() - 2].trigger = true;
+  add(r, "terrain", BodyType::Static, HeightField{waves()});
+  for (int i = 0; i < 60; ++i) {
+    RecordedFrame f;
+    f.time = i / 30.0;
+    f.poses.emplace_back();
+    for (int k = 0; k < 14; ++k)
+      f.poses.push_back(
+          {{(k % 7 - 3) * 1.4, 0.9, k < 7 ? 0.0 : 1.8}, turn({0.2f, 1, 0.1f}, 0.02f * static_cast<float>(i))});
+    f.poses.push_back({{5.8, 0.9, 0.9}, {}});
+    f.poses.push_back({{0, 0.6, -3}, {}});
+    r.frames.push_back(std::move(f));
+  }
+  return r;
+}
+
 }  // namespace
 }  // namespace avbd
 
 int main(int argc, char** argv) {
   const std::string kind = argc > 2 ? argv[2] : "pyramid";
   if (argc < 2) {
-    std::cerr << "page_sample FILE.html [pyramid | pile | hostile]\n";
+    std::cerr << "page_sample FILE.html [pyramid | pile | hostile | shapes]\n";
     return 2;
   }
-  const avbd::Recording r = kind == "pile" ? avbd::pileRun() : kind == "hostile" ? avbd::hostile() : avbd::pyramidRun();
+  const avbd::Recording r = kind == "pile"      ? avbd::pileRun()
+                            : kind == "hostile" ? avbd::hostile()
+                            : kind == "shapes"  ? avbd::shapesRun()
+                                                : avbd::pyramidRun();
   avbd::writePage(argv[1], r);
   return 0;
 }

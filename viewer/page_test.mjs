@@ -245,7 +245,33 @@ async function testHostile() {
   await page.close();
 }
 
+/// Every type of shape is drawn, once for all that share it, and shows where it should be.
+async function testShapes() {
+  const {page, complaints} = await open('shapes');
+  await ask(page, () => { window.avbdViewer.setQuality('0'); window.avbdViewer.seek(0); });
+  await settle(page);
+  const meshes = await ask(page, () => window.avbdViewer.meshes());
+  const named = (part) => meshes.filter(({name}) => name.includes(part));
+  for (const part of ['sphere', 'tube', 'cap', 'box', 'cylinder', 'cone']) assert.ok(named(part).length > 0, part);
+  const surfaces = meshes.filter(({name}) => name.startsWith('surface'));
+  // One hull plain, mirrored and rounded, one mesh twice, one terrain.
+  assert.deepEqual(surfaces.map(({count}) => count).sort(), [1, 1, 1, 1, 2]);
+  assert.ok(surfaces.some(({triangles}) => triangles === 24 * 12 * 2), 'the ring keeps its triangles');
+  assert.ok(surfaces.some(({triangles}) => triangles === 39 * 23 * 2), 'the terrain keeps its cells');
+  assert.equal(named('trigger').length, 2);
+  for (const {name, transparent, triangles} of meshes) {
+    assert.equal(transparent, name.includes('trigger'), name);
+    assert.ok(triangles >= 12, `${name} has ${triangles} triangles`);
+  }
+  const seen = await checkBodies(page, 12);
+  console.log(`shapes: ${seen} bodies where they should be, ${meshes.length} meshes`);
+  await page.screenshot({path: join(work, 'shapes.png')});
+  assert.deepEqual(complaints, []);
+  await page.close();
+}
+
 try {
+  await testShapes();
   await testPyramid();
   await testHostile();
   await testPile();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <avbd/body.h>
+#include <avbd/debug_draw.h>
 #include <avbd/error.h>
 #include <avbd/events.h>
 #include <avbd/geometry.h>
@@ -10,6 +11,7 @@
 #include <avbd/id.h>
 #include <avbd/joint.h>
 #include <avbd/mesh.h>
+#include <avbd/mover.h>
 #include <avbd/profile.h>
 #include <avbd/query.h>
 #include <avbd/types.h>

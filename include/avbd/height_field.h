@@ -16,7 +16,7 @@ namespace avbd {
 struct HeightFieldDef {
   int columns = 2, rows = 2;         ///< 2 .. 32768 each
   float spacingX = 1, spacingZ = 1;  ///< [m] > 0
-  std::span<const float> heights;    ///< [m], columns x rows
+  std::span<const float> heights{};  ///< [m], columns x rows
   /// For each cell (columns - 1 by rows - 1, row by row) an index into ShapeDef::materials, or kHole; empty: all 0.
   std::span<const uint16_t> materials{};
   /// [m] > 0: how far below the surface bodies are still pushed up. 0 takes the larger spacing.

@@ -3,6 +3,7 @@
 
 #include <avbd/body.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -39,11 +40,15 @@ class HullData {
   std::span<const Face> faces() const { return faces_; }
   std::span<const uint8_t> loops() const { return loops_; }  ///< vertices of all faces
   std::span<const Edge> edges() const { return edges_; }
+  /// Vertices at the other ends of this vertex's edges, ascending.
+  std::span<const uint8_t> neighbors(int vertex) const {
+    return std::span(neighbors_).subspan(neighborFirst_[vertex], neighborFirst_[vertex + 1] - neighborFirst_[vertex]);
+  }
   /// Farthest that a given point lies outside [m]: 0 unless points were left out.
   float error() const { return error_; }
   /// Mass, centre and inertia about the centre, at this density [kg/m^3].
   MassProperties massProperties(float density) const;
-  /// Hash of the vertices: equal hulls have equal hashes.
+  /// Hash of the vertices and faces: equal hulls have equal hashes.
   uint64_t contentHash() const { return hash_; }
   Vec3 lower() const { return lower_; }  ///< bounds
   Vec3 upper() const { return upper_; }
@@ -58,9 +63,13 @@ class HullData {
   std::vector<Face> faces_;
   std::vector<uint8_t> loops_;
   std::vector<Edge> edges_;
+  std::vector<uint8_t> neighbors_;       ///< of all vertices
+  std::vector<uint16_t> neighborFirst_;  ///< by vertex, and the end
   Vec3 lower_, upper_, center_;
   float innerRadius_ = 0, error_ = 0;
-  MassProperties unit_;  ///< at density 1
+  double volume_ = 0;
+  Vec3d massCenter_;
+  std::array<double, 6> second_{};  ///< integral of r r^T about massCenter_: xx yy zz xy xz yz
   uint64_t hash_ = 0;
 };
 

@@ -13,8 +13,8 @@ namespace avbd {
 
 /// A surface of triangles. It may be open; nothing needs to be connected.
 struct MeshDef {
-  std::span<const Vec3> vertices;                      ///< [m]
-  std::span<const std::array<uint32_t, 3>> triangles;  ///< anticlockwise seen from the front
+  std::span<const Vec3> vertices{};                      ///< [m]
+  std::span<const std::array<uint32_t, 3>> triangles{};  ///< anticlockwise seen from the front
   std::span<const uint16_t> materials{};  ///< for each triangle an index into ShapeDef::materials; empty: all 0
   bool doubleSided = false;  ///< otherwise only the front pushes: what is behind a triangle passes through it
   /// [m] >= 0: vertices nearer than this are one. 0 merges only equal ones.
@@ -24,8 +24,8 @@ struct MeshDef {
 /// What making a mesh found and repaired.
 struct MeshReport {
   uint32_t triangles = 0;         ///< kept
-  uint32_t degenerate = 0;        ///< dropped: without area
-  uint32_t duplicate = 0;         ///< dropped: the same three vertices as another
+  uint32_t degenerate = 0;        ///< dropped: without area, or lower than 1e-6 of its longest edge
+  uint32_t duplicate = 0;         ///< dropped: the same three vertices and front as another; any front if doubleSided
   uint32_t boundaryEdges = 0;     ///< edges of one triangle only: holes and rims
   uint32_t nonManifoldEdges = 0;  ///< edges of more than two, or of two that disagree about the front
   size_t bytes = 0;               ///< of the finished mesh with its tree

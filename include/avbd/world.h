@@ -73,8 +73,8 @@ class World {
   /// lower slot first, in ascending order.
   std::vector<std::array<BodyId, 2>> excludedPairs() const;
 
-  /// Advances time by dt [s], 0 < dt <= 1. Throws Error for a bad dt, NonFiniteError if a body's state becomes NaN or
-  /// infinite.
+  /// Advances time by dt [s], 0 < dt <= 1 and at least 1e-7 for each substep. Throws Error for a bad dt, NonFiniteError
+  /// if a body's state becomes NaN or infinite.
   const StepReport& step(float dt);
   const StepReport& report() const;  ///< of the last step
   double time() const;               ///< [s] since the world was made
@@ -161,6 +161,36 @@ class World {
   /// user's own constant data, must not touch the world, and must not throw. An empty function removes the hook.
   void setContactHook(std::function<bool(ContactPlan&)> hook);
   bool isTrigger(ShapeId id) const;
+
+  // Queries (query.h): about where shapes are now. Queried geometries are convex: not HalfSpace, Mesh or HeightField.
+  // Ties go to the lower shape id. Throw Error for arguments that are not finite, ways of no length, a dead body in the
+  // filter. Lists are in the order told. Bulk forms: out[i] belongs to the i-th entry; spans of equal length, else
+  // Error.
+  CastHit rayClosest(const Ray& ray, const QueryFilter& filter = {}) const;  ///< shape is null if there is none
+  bool rayAny(const Ray& ray, const QueryFilter& filter = {}) const;
+  std::vector<CastHit> rayAll(const Ray& ray, const QueryFilter& filter = {}) const;  ///< by distance
+  CastHit castClosest(const ShapeCast& cast, const QueryFilter& filter = {}) const;
+  CastHit castClosest(const Geometry& geometry, const Pose& pose, Vec3 motion, const QueryFilter& filter = {}) const;
+  bool castAny(const ShapeCast& cast, const QueryFilter& filter = {}) const;
+  std::vector<CastHit> castAll(const ShapeCast& cast, const QueryFilter& filter = {}) const;  ///< by distance
+  std::vector<CastHit> castAll(const Geometry& geometry, const Pose& pose, Vec3 motion,
+                               const QueryFilter& filter = {}) const;
+  /// Shapes that overlap the geometry or touch it, ascending. A HeightField also what lies below it by no more than its
+  /// thickness (by the geometry's origin).
+  std::vector<ShapeId> overlaps(const Geometry& geometry, const Pose& pose, const QueryFilter& filter = {}) const;
+  bool overlapsAny(const Geometry& geometry, const Pose& pose, const QueryFilter& filter = {}) const;
+  /// Shapes no farther than maxDistance [m] >= 0, by distance.
+  std::vector<NearHit> nearest(const Geometry& geometry, const Pose& pose, float maxDistance,
+                               const QueryFilter& filter = {}) const;
+  NearHit nearestClosest(const Geometry& geometry, const Pose& pose, float maxDistance,
+                         const QueryFilter& filter = {}) const;  ///< shape is null if there is none
+  /// Shapes that hold a point, surface included, ascending. Never a Mesh; a HeightField as for overlaps.
+  std::vector<ShapeId> containing(Vec3d point, const QueryFilter& filter = {}) const;
+  void raysClosest(std::span<const Ray> rays, std::span<CastHit> out, const QueryFilter& filter = {}) const;
+  void raysAny(std::span<const Ray> rays, std::span<uint8_t> out, const QueryFilter& filter = {}) const;  ///< 1 or 0
+  void castsClosest(std::span<const ShapeCast> casts, std::span<CastHit> out, const QueryFilter& filter = {}) const;
+  void overlapTests(std::span<const PlacedGeometry> placed, std::span<uint8_t> out,
+                    const QueryFilter& filter = {}) const;  ///< 1 or 0
 
  private:
   struct Impl;

@@ -20,7 +20,11 @@ World& World::operator=(World&&) noexcept = default;
 
 const StepReport& World::step(float dt) {
   // Written so that NaN is refused.
-  if (!(dt > 0 && dt <= 1)) (Path("World::step") / "dt").refuse(toText(dt), "must be finite and > 0 and at most 1");
+  const Path path("World::step");
+  if (!(dt > 0 && dt <= 1)) (path / "dt").refuse(toText(dt), "must be finite and > 0 and at most 1");
+  if (dt < kMinSubstep * static_cast<float>(impl_->data.def.substeps)) {
+    (path / "dt").refuse(toText(dt), "must be at least " + toText(kMinSubstep) + " for each substep");
+  }
   dropForgottenPairs(impl_->data);
   impl_->stepper.step(impl_->data, dt);
   return impl_->data.report;

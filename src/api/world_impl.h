@@ -3,6 +3,8 @@
 
 #include <avbd/world.h>
 
+#include <mutex>
+
 #include "step/step.h"
 #include "world/world_data.h"
 
@@ -11,6 +13,7 @@ namespace avbd {
 struct World::Impl {
   WorldData data;
   Stepper stepper;
+  std::mutex treeMutex;  ///< held by the query that fits the tree
 };
 
 }  // namespace avbd

@@ -1,17 +1,26 @@
 // Two shapes -> manifold: which function serves which pair.
 //
-//              | Sphere            | Capsule              | Box               | HalfSpace
-//   -----------+-------------------+----------------------+-------------------+-----------------------
-//   Sphere     | SphereSphere      | SphereCapsule        | SphereBox         | SphereHalfSpace
-//   Capsule    |                   | CapsuleCapsule       | CapsuleBox        | CapsuleHalfSpace
-//   Box        |                   |                      | BoxBox            | BoxHalfSpace
-//   HalfSpace  |                   |                      |                   | nothing: neither moves
+//               | Sphere       | Capsule        | Box        | Cylinder .. Hull | HalfSpace         | Mesh, HeightField
+//   ------------+--------------+----------------+------------+------------------+-------------------+------------------
+//   Sphere      | SphereSphere | SphereCapsule  | SphereBox  | Convex           | SphereHalfSpace   | collideSurface()
+//   Capsule     |              | CapsuleCapsule | CapsuleBox | Convex           | CapsuleHalfSpace  | collideSurface()
+//   Box         |              |                | BoxBox     | Convex           | BoxHalfSpace      | collideSurface()
+//   Cylinder .. |              |                |            | Convex           | ConvexHalfSpace   | collideSurface()
+//      Hull     |              |                |            |                  |                   |
+//   HalfSpace,  |              |                |            |                  | nothing: neither  | nothing
+//     Mesh ..   |              |                |            |                  | moves             |
+//
+// "Cylinder .. Hull" are Cylinder, Cone, Ellipsoid, RoundedBox, Hull and, within collideSurface(), Triangle: any pair
+// with one of them is served by collideConvex() (convex.h). A Mesh or HeightField gives several manifolds a pair and
+// has its own door (collide_surface.h).
 //
 // Below the diagonal the two shapes change places and the normal turns round. On the diagonal an order that depends
 // only on how the two lie relative to each other does the same, so that collide(a, b) and collide(b, a) agree in every
 // bit. In that order the lower shape comes first where it can: of two equally good reference faces a stack then
 // always takes the lower body's.
 #include "collide/collide.h"
+
+#include <avbd/hull.h>
 
 #include "collide/collide_pairs.h"
 #include "collide/convex.h"
@@ -36,6 +45,22 @@ PairFunction pairFunction(ShapeType first, ShapeType second) {
   return collideConvex;
 }
 
+/// -1, 0 or 1 as the data that a shape points to comes before, with or after another's: by content, not by address.
+int compareData(const ShapeGeom& a, const ShapeGeom& b) {
+  if (a.type == ShapeType::Hull) {
+    const uint64_t left = a.hull().contentHash(), right = b.hull().contentHash();
+    return left < right ? -1 : (left > right ? 1 : 0);
+  }
+  if (a.type != ShapeType::Triangle) return 0;
+  for (int k = 0; k < 3; ++k) {
+    const Axes left = axes(a.triangle()[k]), right = axes(b.triangle()[k]);
+    for (int i = 0; i < 3; ++i) {
+      if (left[i] != right[i]) return left[i] < right[i] ? -1 : 1;
+    }
+  }
+  return 0;
+}
+
 /// Which of two shapes of the same kind at the same place comes first; any rule does.
 bool comesLater(const ShapeGeom& a, Quat qa, const ShapeGeom& b, Quat qb) {
   const float left[] = {a.radius, a.extent.x, a.extent.y, a.extent.z, qa.w, qa.x, qa.y, qa.z};
@@ -43,7 +68,7 @@ bool comesLater(const ShapeGeom& a, Quat qa, const ShapeGeom& b, Quat qb) {
   for (int i = 0; i < 8; ++i) {
     if (left[i] != right[i]) return left[i] > right[i];
   }
-  return false;
+  return compareData(a, b) > 0;
 }
 
 bool changePlaces(const ShapeGeom& a, const NearPose& poseA, const ShapeGeom& b, const NearPose& poseB) {

@@ -1,13 +1,17 @@
 // For the tests: distances and depths found in double by trying everything, sharing no code with the engine.
 #pragma once
 
+#include <avbd/hull.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <vector>
 
 #include "collide/collide.h"
+#include "geom/hull.h"
 
 namespace avbd::oracle {
 
@@ -141,6 +145,51 @@ inline double separation(const Solid& a, const Solid& b) {
   return (overlap < 0 ? overlap : coreDistance(a, b)) - a.radius - b.radius;
 }
 
+/// Hulls of all sorts, made once: boxes, wedges, balls, needles, pancakes.
+inline const std::vector<std::shared_ptr<const HullData>>& hulls() {
+  static const std::vector<std::shared_ptr<const HullData>> all = [] {
+    std::vector<std::shared_ptr<const HullData>> made;
+    std::mt19937 random(99);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    const Vec3 stretch[] = {{1, 1, 1}, {0.6f, 0.3f, 0.9f}, {0.05f, 0.7f, 0.06f}, {0.8f, 0.04f, 0.8f}};
+    for (int i = 0; i < 32; ++i) {
+      std::vector<Vec3> points;
+      const Vec3 k = stretch[i % 4];
+      const int count = i < 4 ? 8 : (i < 8 ? 4 : 6 + i);
+      while (static_cast<int>(points.size()) < count) {
+        const size_t n = points.size();
+        const Vec3 p{unit(random), unit(random), unit(random)};
+        const float l = length(p);
+        if (i < 4) {
+          points.push_back({n & 1 ? k.x : -k.x, n & 2 ? k.y : -k.y, n & 4 ? k.z : -k.z});
+        } else if (l > 0.1f) {
+          points.push_back({p.x / l * k.x + 0.1f * k.x, p.y / l * k.y, p.z / l * k.z});
+        }
+      }
+      made.push_back(makeHull({.points = points}));
+    }
+    return made;
+  }();
+  return all;
+}
+
+/// The shape k times as large.
+inline ShapeGeom scaled(const ShapeGeom& g, float k) {
+  static std::map<std::pair<const void*, float>, std::shared_ptr<const HullData>> kept;
+  ShapeGeom s = g;
+  s.radius *= k;
+  s.extent = s.extent * k;
+  if (g.type == ShapeType::Hull) {
+    for (const auto& hull : hulls()) {
+      if (hull.get() != g.data) continue;
+      auto& large = kept[{g.data, k}];
+      if (!large) large = scaledHull(hull, {k, k, k});
+      s.data = large.get();
+    }
+  }
+  return s;
+}
+
 class Random {
  public:
   explicit Random(uint32_t seed) : random_(seed) {}
@@ -165,6 +214,7 @@ class Random {
     const Quat q{1, within(-e, e), within(-yaw, yaw), within(-e, e)};
     return normalized(q * quarter[below(5)]);
   }
+  float rounding() { return below(3) ? 0 : within(0.01f, 0.2f); }
   ShapeGeom shape(ShapeType type) {
     const bool thin = below(4) == 0;
     switch (type) {
@@ -174,6 +224,16 @@ class Random {
         return toShapeGeom(Capsule{within(0.1f, 1), below(5) ? within(0.1f, 1) : 0});
       case ShapeType::Box:
         return toShapeGeom(Box{within(0.1f, 1), thin ? 0.02f : within(0.1f, 1), within(0.1f, 1)});
+      case ShapeType::Cylinder:
+        return toShapeGeom(Cylinder{within(0.1f, 1), thin ? 0.02f : within(0.1f, 1), rounding()});
+      case ShapeType::Cone:
+        return toShapeGeom(Cone{within(0.1f, 1), within(0.1f, 1), rounding()});
+      case ShapeType::Ellipsoid:
+        return toShapeGeom(Ellipsoid{within(0.1f, 1), thin ? 0.05f : within(0.1f, 1), within(0.1f, 1)});
+      case ShapeType::RoundedBox:
+        return toShapeGeom(Box{within(0.1f, 1), thin ? 0.02f : within(0.1f, 1), within(0.1f, 1), within(0.01f, 0.3f)});
+      case ShapeType::Hull:
+        return toShapeGeom(Hull{hulls()[static_cast<size_t>(below(32))], {1, 1, 1}, rounding()});
       default:
         break;
     }
@@ -196,8 +256,16 @@ struct Scene {
   }
 };
 
-inline float size(const ShapeGeom& g) { return g.radius + std::max({g.extent.x, g.extent.y, g.extent.z}); }
+inline float size(const ShapeGeom& g) {
+  if (g.type == ShapeType::Hull) {
+    const Vec3 lo = g.hull().lower(), hi = g.hull().upper();
+    return g.radius + std::max({-lo.x, -lo.y, -lo.z, hi.x, hi.y, hi.z});
+  }
+  return g.radius + std::max({g.extent.x, g.extent.y, g.extent.z});
+}
 inline float thinnest(const ShapeGeom& g) {
+  if (g.type == ShapeType::Hull) return g.radius + g.hull().innerRadius();
+  if (g.type > ShapeType::Box && isConvex(g.type)) return g.radius + std::min({g.extent.x, g.extent.y, g.extent.z});
   if (g.type == ShapeType::Box) return std::min({g.extent.x, g.extent.y, g.extent.z});
   return g.type == ShapeType::HalfSpace ? 1e9f : g.radius;
 }

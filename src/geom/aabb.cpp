@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cfloat>
+#include <span>
 
 #include "geom/triangles.h"
 
@@ -43,26 +44,87 @@ Turn turn(Quat q) {
           w * w + x * x + y * y + z * z};
 }
 
-/// Half extents of the bounds of an ellipsoid: along a direction n it reaches |(a n.x, b n.y, c n.z)|.
-Vec3d ellipsoidReach(const ShapeGeom& geom, const Turn& t) {
-  const double k = (1 + 1e-14) / t.scale;
-  const auto row = [&](const double* m) {
-    return k * length(Vec3d{m[0] * geom.extent.x, m[1] * geom.extent.y, m[2] * geom.extent.z});
-  };
-  return {row(t.m[0]), row(t.m[1]), row(t.m[2])};
+/// How far a shape that is centred on its frame reaches along a direction of its frame, without its radius.
+double reachAlong(ShapeType type, const Vec3d& e, const double* n) {
+  switch (type) {
+    case ShapeType::Ellipsoid:
+      return length(Vec3d{n[0] * e.x, n[1] * e.y, n[2] * e.z});
+    case ShapeType::Cylinder:
+      return e.x * std::sqrt(n[0] * n[0] + n[2] * n[2]) + magnitude(n[1]) * e.y;
+    default:
+      return magnitude(n[0]) * e.x + magnitude(n[1]) * e.y + magnitude(n[2]) * e.z;
+  }
 }
 
-/// Half extents of the bounds of a shape that is centred on its frame; of a cylinder or cone: of the box about it.
+/// Half extents of the bounds of a shape that is centred on its frame.
 Vec3d reach(const ShapeGeom& geom, Quat rotation) {
   const double r = geom.radius;
   if (geom.type == ShapeType::Sphere) return {r, r, r};
   const Turn t = turn(rotation);
-  if (geom.type == ShapeType::Ellipsoid) return ellipsoidReach(geom, t);
   // Enlarged by more than double rounding can lose.
   const double k = (1 + 1e-14) / t.scale;
-  const double x = geom.extent.x * k, y = geom.extent.y * k, z = geom.extent.z * k;
-  const auto row = [&](const double* m) { return magnitude(m[0]) * x + magnitude(m[1]) * y + magnitude(m[2]) * z + r; };
-  return {row(t.m[0]), row(t.m[1]), row(t.m[2])};
+  const Vec3d e{geom.extent.x * k, geom.extent.y * k, geom.extent.z * k};
+  return {reachAlong(geom.type, e, t.m[0]) + r, reachAlong(geom.type, e, t.m[1]) + r,
+          reachAlong(geom.type, e, t.m[2]) + r};
+}
+
+/// Lower and upper ends of a shape that is not centred, about its frame's origin in the world's directions.
+struct Ends {
+  double lower[3], upper[3];
+};
+
+/// Farthest of many points, either way.
+void addPoints(std::span<const Vec3> points, const Turn& t, Ends& ends) {
+  for (int i = 0; i < 3; ++i) {
+    const double* n = t.m[i];
+    double low = 1e300, high = -1e300;
+    for (const Vec3& p : points) {
+      const double x = n[0] * p.x + n[1] * p.y + n[2] * p.z;
+      low = x < low ? x : low;
+      high = x > high ? x : high;
+    }
+    ends.lower[i] = low;
+    ends.upper[i] = high;
+  }
+}
+
+/// The tip and the base's rim.
+void addCone(const Vec3& extent, const Turn& t, Ends& ends) {
+  for (int i = 0; i < 3; ++i) {
+    const double* n = t.m[i];
+    const double tip = n[1] * extent.y, rim = extent.x * std::sqrt(n[0] * n[0] + n[2] * n[2]);
+    const double low = -tip - rim, high = -tip + rim;
+    ends.lower[i] = tip < low ? tip : low;
+    ends.upper[i] = tip > high ? tip : high;
+  }
+}
+
+bool isCentred(ShapeType type) {
+  return type != ShapeType::Cone && type != ShapeType::Hull && type != ShapeType::Triangle && !isSurface(type);
+}
+
+Ends endsOf(const ShapeGeom& geom, const Turn& t) {
+  Ends ends;
+  if (geom.type == ShapeType::Hull) addPoints(geom.hull().vertices(), t, ends);
+  if (geom.type == ShapeType::Triangle) addPoints({geom.triangle(), 3}, t, ends);
+  if (geom.type == ShapeType::Cone) addCone(geom.extent, t, ends);
+  if (isSurface(geom.type)) {
+    const Aabb box = surfaceBounds(geom);
+    Vec3 corners[8];
+    for (int k = 0; k < 8; ++k) {
+      corners[k] = {k & 1 ? box.upper.x : box.lower.x, k & 2 ? box.upper.y : box.lower.y,
+                    k & 4 ? box.upper.z : box.lower.z};
+    }
+    addPoints(corners, t, ends);
+  }
+  for (int i = 0; i < 3; ++i) {
+    // Moved outwards by more than double rounding can lose.
+    const double low = ends.lower[i] / t.scale, high = ends.upper[i] / t.scale;
+    const double more = 1e-14 * (magnitude(low) + magnitude(high)) + geom.radius;
+    ends.lower[i] = low - more;
+    ends.upper[i] = high + more;
+  }
+  return ends;
 }
 
 Aabb halfSpaceBounds(const Pose& pose, double margin) {
@@ -80,32 +142,14 @@ Aabb halfSpaceBounds(const Pose& pose, double margin) {
 
 }  // namespace
 
-namespace {
-
-/// Bounds of a box in a frame, as a shape that is not centred on it has them.
-struct LocalBounds {
-  Vec3 lower, upper;
-};
-
-LocalBounds localBounds(const ShapeGeom& geom) {
-  if (geom.type == ShapeType::Hull) return {geom.hull().lower(), geom.hull().upper()};
-  const Aabb box = surfaceBounds(geom);
-  return {box.lower, box.upper};
-}
-
-bool isCentred(ShapeType type) { return type < ShapeType::Hull; }
-
-}  // namespace
-
 Aabb bounds(const ShapeGeom& geom, const Pose& pose, float margin) {
   if (geom.type == ShapeType::HalfSpace) return halfSpaceBounds(pose, margin);
   if (!isCentred(geom.type)) {
-    const LocalBounds local = localBounds(geom);
-    const Vec3d middle = (toDouble(local.lower) + toDouble(local.upper)) * 0.5;
-    // One rounding more, so that the box about the middle holds both ends.
-    const Vec3d half = (toDouble(local.upper) - toDouble(local.lower)) * (0.5 * (1 + 1e-7));
-    const Vec3 extent{roundUp(half.x), roundUp(half.y), roundUp(half.z)};
-    return bounds({ShapeType::RoundedBox, geom.radius, extent}, pose * Pose{middle, {}}, margin);
+    const Ends e = endsOf(geom, turn(pose.rotation));
+    const Vec3d p = pose.position;
+    const double m = margin;
+    return {{roundDown(p.x + (e.lower[0] - m)), roundDown(p.y + (e.lower[1] - m)), roundDown(p.z + (e.lower[2] - m))},
+            {roundUp(p.x + (e.upper[0] + m)), roundUp(p.y + (e.upper[1] + m)), roundUp(p.z + (e.upper[2] + m))}};
   }
   const Vec3d p = pose.position, e = reach(geom, pose.rotation) + Vec3{margin, margin, margin};
   const Vec3d lo = p - e, hi = p + e;

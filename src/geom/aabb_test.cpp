@@ -1,10 +1,12 @@
 // Bounds hold their shape, tightly.
 #include "geom/aabb.h"
 
+#include <avbd/hull.h>
 #include <gtest/gtest.h>
 
 #include <cfloat>
 #include <random>
+#include <vector>
 
 namespace avbd {
 namespace {
@@ -112,6 +114,59 @@ TEST(Bounds, scaleExactlyByPowersOfTwo) {
     const Aabb b = bounds(toShapeGeom(Box{0.3f * 128, 0.7f * 128, 1.1f * 128}), {p * 128, q}, 0.01f * 128);
     EXPECT_EQ(a.lower * 128, b.lower);
     EXPECT_EQ(a.upper * 128, b.upper);
+  }
+}
+
+/// Least and most of a shape along the world's axes, by its own formulas, beside its bounds.
+void expectTight(const ShapeGeom& g, const Pose& pose, const std::vector<Vec3d>& points) {
+  const Aabb box = bounds(g, pose, 0.125f);
+  const float lower[3] = {box.lower.x, box.lower.y, box.lower.z}, upper[3] = {box.upper.x, box.upper.y, box.upper.z};
+  double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300};
+  for (const Vec3d& p : points) {
+    const Vec3d w = pose.position + rotate(pose.rotation, p);
+    const double c[3] = {w.x, w.y, w.z};
+    for (int i = 0; i < 3; ++i) low[i] = std::fmin(low[i], c[i]), high[i] = std::fmax(high[i], c[i]);
+  }
+  const double grown = 0.125 + g.radius, rounding = 2e-6;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_LE(lower[i], low[i] - grown + rounding);
+    EXPECT_GE(lower[i], low[i] - grown - 2e-3) << static_cast<int>(g.type);
+    EXPECT_GE(upper[i], high[i] + grown - rounding);
+    EXPECT_LE(upper[i], high[i] + grown + 2e-3) << static_cast<int>(g.type);
+  }
+}
+
+TEST(Bounds, areTightAboutEveryConvexShape) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> place(-5, 5);
+  std::vector<Vec3> cloud;
+  for (int i = 0; i < 20; ++i) {
+    cloud.push_back({static_cast<float>(place(random)) * 0.2f, static_cast<float>(place(random)) * 0.1f,
+                     static_cast<float>(place(random)) * 0.02f + 3});
+  }
+  const Hull hull{makeHull({.points = cloud}), {1, 1, 1}, 0.05f};
+  const Vec3 corners[3] = {{1, 2, 3}, {-1, 0.5f, 3}, {0, 0, -1}};
+  ShapeGeom triangle{ShapeType::Triangle, 0.01f, {}};
+  triangle.data = corners;
+  std::vector<Vec3d> ofHull, ofTriangle, ofCylinder, ofCone{{0, 0.7, 0}}, ofEllipsoid;
+  for (const Vec3& v : hull.data->vertices()) ofHull.push_back(toDouble(v));
+  for (const Vec3& v : corners) ofTriangle.push_back(toDouble(v));
+  for (int i = 0; i < 400; ++i) {
+    const double t = i * 6.283185307179586 / 400, x = 0.4 * std::cos(t), z = 0.4 * std::sin(t);
+    for (double y : {-0.7, 0.7}) ofCylinder.push_back({x, y, z});
+    ofCone.push_back({x, -0.7, z});
+    for (int k = 1; k < 200; ++k) {
+      const double y = std::cos(k * 3.141592653589793 / 200), r = std::sqrt(1 - y * y);
+      ofEllipsoid.push_back({0.3 * r * std::cos(t), 0.6 * y, 0.9 * r * std::sin(t)});
+    }
+  }
+  for (int i = 0; i < 40; ++i) {
+    const Pose pose{{place(random), place(random), place(random)}, randomRotation(random)};
+    expectTight(toShapeGeom(hull), pose, ofHull);
+    expectTight(triangle, pose, ofTriangle);
+    expectTight(toShapeGeom(Cylinder{0.4f, 0.7f, 0.1f}), pose, ofCylinder);
+    expectTight(toShapeGeom(Cone{0.4f, 0.7f, 0.1f}), pose, ofCone);
+    expectTight(toShapeGeom(Ellipsoid{0.3f, 0.6f, 0.9f}), pose, ofEllipsoid);
   }
 }
 

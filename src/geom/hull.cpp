@@ -1,12 +1,57 @@
-// Hulls: made and scaled (hull.h).
+// Hulls: what they answer, and scaled copies (hull.h).
 #include "geom/hull.h"
 
-#include <avbd/error.h>
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "geom/hull_builder.h"
 
 namespace avbd {
 
-std::shared_ptr<const HullData> makeHull(const HullDef&) { throw Error("HullDef", "points", "0", "not built yet"); }
-std::shared_ptr<const HullData> scaledHull(const std::shared_ptr<const HullData>& hull, Vec3) { return hull; }
-MassProperties HullData::massProperties(float) const { return unit_; }
+MassProperties HullData::massProperties(float density) const { return HullFactory::moments(*this).properties(density); }
+
+namespace {
+
+/// Scaled copies that someone uses.
+struct ScaledCopy {
+  std::weak_ptr<const HullData> source, copy;
+  Vec3 scale;
+};
+
+struct ScaledCopies {
+  std::mutex mutex;
+  std::multimap<uint64_t, ScaledCopy> all;  // by the source's content
+  size_t sweepAt = 64;
+};
+
+ScaledCopies& scaledCopies() {
+  static ScaledCopies copies;
+  return copies;
+}
+
+}  // namespace
+
+std::shared_ptr<const HullData> scaledHull(const std::shared_ptr<const HullData>& hull, Vec3 scale) {
+  if (scale == Vec3{1, 1, 1}) return hull;
+  ScaledCopies& copies = scaledCopies();
+  const std::scoped_lock lock(copies.mutex);
+  const auto [begin, end] = copies.all.equal_range(hull->contentHash());
+  for (auto i = begin; i != end; ++i) {
+    const ScaledCopy& entry = i->second;
+    if (!(entry.scale == scale) || entry.source.lock() != hull) continue;
+    if (auto copy = entry.copy.lock()) return copy;
+  }
+  std::shared_ptr<const HullData> made = HullFactory::scale(*hull, scale);
+  copies.all.insert({hull->contentHash(), {hull, made, scale}});
+  // The dead go when their number may have doubled.
+  if (copies.all.size() > copies.sweepAt) {
+    std::erase_if(copies.all, [](const auto& entry) { return entry.second.copy.expired(); });
+    copies.sweepAt = 2 * copies.all.size() + 64;
+  }
+  return made;
+}
 
 }  // namespace avbd

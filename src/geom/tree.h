@@ -7,6 +7,30 @@
 
 namespace avbd {
 
+/// A box that moves `length` along a unit direction; half extents zero: a ray. In double, as ways are long and far from
+/// the world's origin.
+struct BoxWay {
+  Vec3d from;  ///< its middle at the start
+  Vec3d direction;
+  double length = 0;
+  Vec3d half;
+};
+
+/// Where on its way the moving box meets another: begin > end where it does not.
+struct WaySpan {
+  double begin = 0, end = 0;
+};
+
+/// What of a BoxWay every box needs.
+class WayAxes {
+ public:
+  explicit WayAxes(const BoxWay& way);
+  WaySpan meet(const Aabb& box, double length) const;
+
+ private:
+  double from_[3], half_[3], inverse_[3];
+};
+
 /// Plain relocatable data: nodes in a vector, links by index. The same calls in the same order give the same tree.
 /// A new leaf goes where it adds the least surface; rotations on the way up keep the tree low.
 class DynamicTree {
@@ -22,6 +46,15 @@ class DynamicTree {
   /// Calls f(userData) for every leaf whose box overlaps, in the tree's order. f must not change the tree.
   template <class F>
   void query(const Aabb& box, F&& f) const;
+  /// Calls f(userData, length) for the leaves that a moving box meets on the first `length` of its way, nearer parts of
+  /// the tree first. f returns how much of the way is left to search: the length given to go on as before, less to cut
+  /// it short, a negative number to stop.
+  template <class F>
+  void along(const BoxWay& way, F&& f) const;
+  /// Calls f(userData, reach) for the leaves whose boxes lie within `reach` of this one, nearer parts of the tree
+  /// first. f returns the reach that is left to search, negative to stop.
+  template <class F>
+  void around(const Aabb& box, float reach, F&& f) const;
 
   struct Node {
     Aabb box;
@@ -78,6 +111,35 @@ class VisitStack {
   std::vector<int32_t> more_;
 };
 
+/// Nodes still to visit, each with the least that anything in it can be away.
+class RankedStack {
+ public:
+  struct Entry {
+    double rank;
+    int32_t node;
+  };
+  bool empty() const { return top_ == 0; }
+  void push(int32_t node, double rank) {
+    if (top_ < kInline) {
+      inline_[top_++] = {rank, node};
+    } else {
+      more_.push_back({rank, node});
+    }
+  }
+  Entry pop() {
+    if (more_.empty()) return inline_[--top_];
+    const Entry entry = more_.back();
+    more_.pop_back();
+    return entry;
+  }
+
+ private:
+  static constexpr int kInline = 128;
+  Entry inline_[kInline];
+  int top_ = 0;
+  std::vector<Entry> more_;
+};
+
 template <class F>
 void DynamicTree::query(const Aabb& box, F&& f) const {
   if (root_ < 0 || !overlaps(at(root_).box, box)) return;
@@ -92,6 +154,96 @@ void DynamicTree::query(const Aabb& box, F&& f) const {
     for (int side = 1; side >= 0; --side) {
       if (overlaps(at(node.child[side]).box, box)) stack.push(node.child[side]);
     }
+  }
+}
+
+inline WayAxes::WayAxes(const BoxWay& way) {
+  const double from[3] = {way.from.x, way.from.y, way.from.z}, half[3] = {way.half.x, way.half.y, way.half.z};
+  const double d[3] = {way.direction.x, way.direction.y, way.direction.z};
+  for (int i = 0; i < 3; ++i) {
+    from_[i] = from[i];
+    half_[i] = half[i];
+    // Not infinite, so that a box that begins where the ray is gives 0, not NaN.
+    constexpr double kMost = 1e290;
+    const double size = d[i] < 0 ? -d[i] : d[i];
+    inverse_[i] = size * kMost > 1 ? 1 / d[i] : kMost;
+  }
+}
+
+inline WaySpan WayAxes::meet(const Aabb& box, double length) const {
+  const float lower[3] = {box.lower.x, box.lower.y, box.lower.z}, upper[3] = {box.upper.x, box.upper.y, box.upper.z};
+  WaySpan span{0, length};
+  for (int i = 0; i < 3; ++i) {
+    const double a = (static_cast<double>(lower[i]) - half_[i] - from_[i]) * inverse_[i];
+    const double b = (static_cast<double>(upper[i]) + half_[i] - from_[i]) * inverse_[i];
+    // A little wider than rounding can be wrong.
+    const double in = (a < b ? a : b), out = (a < b ? b : a) * (1 + 1e-15);
+    span.begin = in > span.begin ? in : span.begin;
+    span.end = out < span.end ? out : span.end;
+  }
+  return span;
+}
+
+/// Squared gap between two boxes; 0 where they overlap.
+inline float squaredGap(const Aabb& a, const Aabb& b) {
+  const auto gap = [](float lowA, float highA, float lowB, float highB) {
+    const float after = lowB - highA, before = lowA - highB, most = after > before ? after : before;
+    return most > 0 ? most : 0.0f;
+  };
+  const Vec3 g{gap(a.lower.x, a.upper.x, b.lower.x, b.upper.x), gap(a.lower.y, a.upper.y, b.lower.y, b.upper.y),
+               gap(a.lower.z, a.upper.z, b.lower.z, b.upper.z)};
+  return dot(g, g);
+}
+
+template <class F>
+void DynamicTree::along(const BoxWay& way, F&& f) const {
+  if (root_ < 0) return;
+  const WayAxes axes(way);
+  double left = way.length;
+  const WaySpan whole = axes.meet(at(root_).box, left);
+  if (whole.begin > whole.end) return;
+  RankedStack stack;
+  stack.push(root_, whole.begin);
+  while (!stack.empty()) {
+    const RankedStack::Entry next = stack.pop();
+    if (next.rank > left) continue;
+    const Node& node = at(next.node);
+    if (node.height == 0) {
+      left = f(node.userData, left);
+      if (left < 0) return;
+      continue;
+    }
+    WaySpan span[2];
+    for (int side = 0; side < 2; ++side) span[side] = axes.meet(at(node.child[side]).box, left);
+    const int far = span[1].begin < span[0].begin ? 0 : 1;
+    for (const int side : {far, 1 - far})
+      if (span[side].begin <= span[side].end) stack.push(node.child[side], span[side].begin);
+  }
+}
+
+template <class F>
+void DynamicTree::around(const Aabb& box, float reach, F&& f) const {
+  if (root_ < 0) return;
+  // A little wider than rounding can be wrong.
+  const auto within = [](float r) { return double(r) * double(r) * (1 + 1e-6); };
+  double left = within(reach);
+  RankedStack stack;
+  stack.push(root_, static_cast<double>(squaredGap(at(root_).box, box)));
+  while (!stack.empty()) {
+    const RankedStack::Entry next = stack.pop();
+    if (next.rank > left) continue;
+    const Node& node = at(next.node);
+    if (node.height == 0) {
+      reach = f(node.userData, reach);
+      if (reach < 0) return;
+      left = within(reach);
+      continue;
+    }
+    double gap[2];
+    for (int side = 0; side < 2; ++side) gap[side] = static_cast<double>(squaredGap(at(node.child[side]).box, box));
+    const int far = gap[1] < gap[0] ? 0 : 1;
+    for (const int side : {far, 1 - far})
+      if (gap[side] <= left) stack.push(node.child[side], gap[side]);
   }
 }
 

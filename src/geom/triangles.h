@@ -22,13 +22,19 @@ struct SurfaceTriangle {
 /// f may return false to stop.
 void forEachTriangle(const ShapeGeom& surface, const Aabb& box, FunctionRef<bool(const SurfaceTriangle&)> f);
 
+/// The same without looking up neighbours: all edges are given as rims.
+void forEachBareTriangle(const ShapeGeom& surface, const Aabb& box, FunctionRef<bool(const SurfaceTriangle&)> f);
+/// Looks up the neighbours of a bare triangle.
+void findNeighbours(const ShapeGeom& surface, SurfaceTriangle& triangle);
+
 /// Calls f for triangles that a box of these half extents (zero: a ray) may meet on its way from -> from + fraction
 /// motion, nearest parts of the tree first. f returns the new fraction 0 .. 1 that is left to search: the one given to
-/// go on as before, smaller to cut the way short, negative to stop.
+/// go on as before, smaller to cut the way short, negative to stop. Neighbours are not looked up: all edges are given
+/// as rims.
 void forEachTriangleAlong(const ShapeGeom& surface, Vec3 from, Vec3 motion, Vec3 halfExtent,
                           FunctionRef<float(const SurfaceTriangle&, float fraction)> f);
 
-/// Bounds in the shape's frame, with scale.
+/// Bounds in the shape's frame, with scale; of a HeightField down to its thickness below the lowest point.
 Aabb surfaceBounds(const ShapeGeom& surface);
 
 }  // namespace avbd

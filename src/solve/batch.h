@@ -23,6 +23,13 @@ struct PairOp {
   rows::Sym6<R> stiffness;
 };
 
+/// The same where the pair's wrench acts on A and B times a factor.
+template <class R>
+struct ScaledOp {
+  PairOp<R> pair;
+  R hessianA, hessianB;
+};
+
 /// The same of a row over four nodes: J and k.
 template <class R>
 struct NodeOp {
@@ -74,8 +81,10 @@ struct BatchView {
   PairTiles<rows::Contact> contacts;
   PairTiles<rows::BallJoint> balls;  ///< those that no tree holds
   PairTiles<rows::FixedJoint> fixed;
+  PairTiles<rows::FullContact> full;
   TetTiles tets;
   Tile<PairOp>* op = nullptr;  ///< contacts, then balls, then fixed
+  Tile<ScaledOp>* fullOp = nullptr;
 
   const uint32_t* locked = nullptr;  ///< rows of bodies with locked axes
   const uint8_t* locks = nullptr;

@@ -62,6 +62,7 @@ class TestBatch {
   std::vector<Placed<rows::Contact>> contacts;
   std::vector<Placed<rows::BallJoint>> balls;
   std::vector<Placed<rows::FixedJoint>> fixed;
+  std::vector<Placed<rows::FullContact>> full;
   std::vector<PlacedTet> tets;
   std::vector<IslandRange> islands;
   std::vector<uint32_t> locked;
@@ -107,6 +108,9 @@ class TestBatch {
     v.contacts = layOut(contacts, contactLanes_);
     v.balls = layOut(balls, ballLanes_);
     v.fixed = layOut(fixed, fixedLanes_);
+    v.full = layOut(full, fullLanes_);
+    fullOp_.resize(v.full.tiles);
+    v.fullOp = fullOp_.data();
     layOutTets(v.tets);
     op_.resize(v.contacts.tiles + v.balls.tiles + v.fixed.tiles);
     v.op = op_.data();
@@ -166,9 +170,11 @@ class TestBatch {
   Lanes<rows::Contact> contactLanes_;
   Lanes<rows::BallJoint> ballLanes_;
   Lanes<rows::FixedJoint> fixedLanes_;
+  Lanes<rows::FullContact> fullLanes_;
   AlignedVector<Tile<rows::TetVolume>> tetTile_;
   std::vector<uint32_t> tetNode_[4];
   AlignedVector<Tile<PairOp>> op_;
+  AlignedVector<Tile<ScaledOp>> fullOp_;
   AlignedVector<Tile<NodeOp>> tetOp_;
 };
 
@@ -220,16 +226,23 @@ struct Columns {
   }
 };
 
-inline void addRows(DenseSystem& s, const RowList<float>& list, const Columns& columns) {
+/// Factors on what rows do to the blocks: on forces, and on J in the Hessian.
+struct Scales {
+  double force[4] = {1, 1, 1, 1}, hessian[4] = {1, 1, 1, 1};
+};
+
+inline void addRows(DenseSystem& s, const RowList<float>& list, const Columns& columns, const Scales& scales = {}) {
   for (int i = 0; i < list.count; ++i)
     for (int u = 0; u < list.unknowns; ++u) {
       if (columns.of(u) < 0) continue;
       const size_t cu = static_cast<size_t>(columns.of(u));
-      s.right[cu] -= double(list.J[i][u]) * list.force[i];
+      const int block = u / columns.perBlock;
+      s.right[cu] -= double(list.J[i][u]) * list.force[i] * scales.force[block];
       for (int w = 0; w < list.unknowns; ++w)
         if (columns.of(w) >= 0)
-          s.m.at(cu, static_cast<size_t>(columns.of(w))) +=
-              double(list.k[i]) * list.share[i] * list.J[i][u] * list.J[i][w];
+          s.m.at(cu, static_cast<size_t>(columns.of(w))) += double(list.k[i]) * list.share[i] * list.J[i][u] *
+                                                            list.J[i][w] * scales.hessian[block] *
+                                                            scales.hessian[w / columns.perBlock];
     }
 }
 
@@ -250,12 +263,12 @@ inline void addGeometric(DenseSystem& s, const TestBatch& batch, uint32_t a, uin
 }
 
 template <template <class> class F>
-RowList<float> addPair(DenseSystem& s, const TestBatch& batch, Placed<F> pair) {
+RowList<float> addPair(DenseSystem& s, const TestBatch& batch, Placed<F> pair, const Scales& scales = {}) {
   float d[12];
   const rows::Twist<float> dA = batch.motion(pair.a), dB = batch.motion(pair.b);
   put(d, dA.lin), put(d + 3, dA.ang), put(d + 6, dB.lin), put(d + 9, dB.ang);
   RowList<float> list = listRows<F, float>(pair.rows, d);
-  addRows(s, list, {{pair.a, pair.b}, 6, batch.bodies()});
+  addRows(s, list, {{pair.a, pair.b}, 6, batch.bodies()}, scales);
   return list;
 }
 
@@ -310,8 +323,12 @@ inline void lock(DenseSystem& s, const TestBatch& batch) {
 
 }  // namespace dense
 
+/// How full contacts enter the Hessian: as the products of the conjugate gradients have it, or with each body's own
+/// block as the sweep has it.
+enum class Scaling : uint8_t { Products, OwnBlocks };
+
 /// The system at the batch's present d and multipliers.
-inline DenseSystem systemOf(const TestBatch& batch) {
+inline DenseSystem systemOf(const TestBatch& batch, Scaling scaling = Scaling::Products) {
   size_t n = 6 * batch.bodies();
   for (const TreeJoint& joint : batch.forest.joints) n += static_cast<size_t>(joint.m);
   DenseSystem s{DenseMatrix(n), std::vector<double>(n, 0.0)};
@@ -324,6 +341,12 @@ inline DenseSystem systemOf(const TestBatch& batch) {
   for (const auto& pair : batch.fixed) {
     const RowList<float> list = dense::addPair(s, batch, pair);
     dense::addGeometric(s, batch, pair.a, pair.b, {list.force[0], list.force[1], list.force[2]}, pair.rows.ball);
+  }
+  for (const auto& pair : batch.full) {
+    const auto& c = pair.rows;
+    dense::Scales scales{{c.scaleA, c.scaleB}, {c.hessianA, c.hessianB}};
+    if (scaling == Scaling::OwnBlocks) scales.hessian[0] = std::sqrt(c.scaleA), scales.hessian[1] = std::sqrt(c.scaleB);
+    dense::addPair(s, batch, pair, scales);
   }
   for (PlacedTet tet : batch.tets) {
     float d[12];
@@ -351,6 +374,14 @@ inline void addContact(TestBatch& batch, uint32_t a, uint32_t b, Random& random)
   for (auto& p : c.point)
     if (p.floorN > 0) soften(p.floorN, random), soften(p.floorT, random), p.lambdaN *= 0.1f;
   batch.contacts.push_back({a, b, c});
+}
+
+inline void addFull(TestBatch& batch, uint32_t a, uint32_t b, Random& random) {
+  rows::FullContact<float> f = RandomRows<rows::FullContact>::any(random);
+  for (auto& p : f.contact.point)
+    if (p.floorN > 0) soften(p.floorN, random), soften(p.floorT, random), p.lambdaN *= 0.1f;
+  soften(f.kTorsion, random), soften(f.kRolling, random);
+  batch.full.push_back({a, b, f});
 }
 
 inline void addJoint(TestBatch& batch, uint32_t a, uint32_t b, Random& random) {

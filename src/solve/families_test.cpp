@@ -232,6 +232,9 @@ void expectBounded(F<float> instance, const Motion& at, BoundsSeen& seen, const 
     ASSERT_GE(force, list.lower[i]) << name;
     ASSERT_LE(force, list.upper[i]) << name;
     ++(force == list.lower[i] || force == list.upper[i] ? seen.atBound : seen.free);
+    if (list.cone[i] == Cone::Alone) {
+      ASSERT_LE(std::fabs(force), list.bound[i] * (1 + 1e-6f)) << name << " row " << i;
+    }
     if (list.cone[i] != Cone::First) continue;
     ASSERT_LE(std::hypot(force, *list.lambda[i + 1]), list.bound[i] * (1 + 1e-6f)) << name << " row " << i;
     ++(list.share[i] < 1 ? seen.slips : seen.sticks);

@@ -43,22 +43,53 @@ AVBD_INLINE R floorStiffness(const R& present, const R& w, float factor) {
   return select(usable, splat<R>(factor) / select(usable, w, splat<R>(1)), zero<R>());
 }
 
+AVBD_INLINE void prepareContact(Contact<R>& c, const InverseMass& a, const InverseMass& b, float factor) {
+  for (auto& p : c.point) {
+    const V3<R> armA = c.armA + p.arm, armB = c.armB + p.arm;
+    const R wn = inverseMassAlong(a, armA, c.n) + inverseMassAlong(b, armB, c.n);
+    const R w1 = inverseMassAlong(a, armA, c.t1) + inverseMassAlong(b, armB, c.t1);
+    const R w2 = inverseMassAlong(a, armA, c.t2) + inverseMassAlong(b, armB, c.t2);
+    p.floorN = floorStiffness(p.floorN, wn, factor);
+    p.floorT = floorStiffness(p.floorT, max(w1, w2), factor);
+  }
+}
+
+AVBD_INLINE InverseMass scaled(const InverseMass& m, const R& s) { return {m.linear * s, m.angular * s}; }
+
+/// hessianA, hessianB (full_contact.h); the masses along the normal are those at the reference point.
+AVBD_INLINE void scaleHessian(FullContact<R>& c, const InverseMass& a, const InverseMass& b) {
+  const R wA = inverseMassAlong(a, c.contact.armA, c.contact.n), wB = inverseMassAlong(b, c.contact.armB, c.contact.n);
+  const R once = c.scaleA * wA + c.scaleB * wB;
+  const R twice = c.scaleA * c.scaleA * wA + c.scaleB * c.scaleB * wB;
+  const R factor = sqrt(select(twice > 0.0f, once / select(twice > 0.0f, twice, splat<R>(1)), zero<R>()));
+  c.hessianA = c.scaleA * factor;
+  c.hessianB = c.scaleB * factor;
+}
+
+AVBD_INLINE void prepareFull(FullContact<R>& c, const InverseMass& a, const InverseMass& b, float factor) {
+  scaleHessian(c, a, b);
+  const InverseMass sA = scaled(a, c.scaleA), sB = scaled(b, c.scaleB);
+  prepareContact(c.contact, sA, sB, factor);
+  const Sym3<R> turning = sA.angular + sB.angular;
+  const auto along = [&](const V3<R>& axis) { return dot(axis, turning * axis); };
+  c.kTorsion = floorStiffness(c.torsional, along(c.contact.n), factor);
+  c.kRolling = floorStiffness(c.rolling, max(along(c.contact.t1), along(c.contact.t2)), factor);
+}
+
 void prepareContacts(const BatchView& v, const SolveSettings& s) {
   const float factor = s.floorFactor / (s.h * s.h);
   forLanes(v.contacts.tiles, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     Contact<R> c = v.contacts.tile[t].load<N>(o);
-    const InverseMass a = gatherInverseMass(v.invMass, v.contacts.a + at);
-    const InverseMass b = gatherInverseMass(v.invMass, v.contacts.b + at);
-    for (auto& p : c.point) {
-      const V3<R> armA = c.armA + p.arm, armB = c.armB + p.arm;
-      const R wn = inverseMassAlong(a, armA, c.n) + inverseMassAlong(b, armB, c.n);
-      const R w1 = inverseMassAlong(a, armA, c.t1) + inverseMassAlong(b, armB, c.t1);
-      const R w2 = inverseMassAlong(a, armA, c.t2) + inverseMassAlong(b, armB, c.t2);
-      p.floorN = floorStiffness(p.floorN, wn, factor);
-      p.floorT = floorStiffness(p.floorT, max(w1, w2), factor);
-    }
+    prepareContact(c, gatherInverseMass(v.invMass, v.contacts.a + at), gatherInverseMass(v.invMass, v.contacts.b + at),
+                   factor);
     v.contacts.tile[t].store<N>(o, c);
+  });
+  forLanes(v.full.tiles, [&](uint32_t t, int o) {
+    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
+    FullContact<R> c = v.full.tile[t].load<N>(o);
+    prepareFull(c, gatherInverseMass(v.invMass, v.full.a + at), gatherInverseMass(v.invMass, v.full.b + at), factor);
+    v.full.tile[t].store<N>(o, c);
   });
 }
 
@@ -100,6 +131,28 @@ void stampPairs(const BatchView& v, const PairTiles<Family>& tiles, Tile<PairOp>
     lane::scatterAddTwists<N>(v.gradient, a, shiftWrench(sink.wrench, sink.armA), b,
                               -shiftWrench(sink.wrench, sink.armB));
     lane::scatterAddSym6s<N>(v.hessian, a, blockA, b, blockB);
+  });
+}
+
+void stampFull(const BatchView& v, float leak, bool dual) {
+  forLanes(v.full.tiles, [&](uint32_t t, int o) {
+    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
+    const uint32_t *a = v.full.a + at, *b = v.full.b + at;
+    FullContact<R> pair = v.full.tile[t].load<N>(o);
+    const Twist<R> dA = gatherTwist<N>(v.d, a), dB = gatherTwist<N>(v.d, b);
+    if (dual) {
+      DualSink<R> sink{splat<R>(leak)};
+      pair.rows(dA, dB, sink);
+      v.full.tile[t].store<N>(o, pair);
+    }
+    StampSink<R> sink;
+    sink.clear();
+    pair.rows(dA, dB, sink);
+    v.fullOp[t].store<N>(o, ScaledOp<R>{{sink.armA, sink.armB, sink.stiffness}, pair.hessianA, pair.hessianB});
+    lane::scatterAddTwists<N>(v.gradient, a, shiftWrench(sink.wrench, sink.armA) * pair.scaleA, b,
+                              -(shiftWrench(sink.wrench, sink.armB) * pair.scaleB));
+    lane::scatterAddSym6s<N>(v.hessian, a, shifted(sink.stiffness, sink.armA) * (pair.hessianA * pair.hessianA), b,
+                             shifted(sink.stiffness, sink.armB) * (pair.hessianB * pair.hessianB));
   });
 }
 
@@ -177,6 +230,7 @@ void stampRows(const BatchView& v, const SolveSettings& s, bool dual) {
   stampPairs<BallJoint, true>(v, v.balls, op, s.jointLeak, dual);
   op += v.balls.tiles;
   stampPairs<FixedJoint, true>(v, v.fixed, op, s.jointLeak, dual);
+  stampFull(v, s.contactLeak, dual);
   stampTets(v, dual);
 }
 
@@ -184,6 +238,7 @@ void updateRows(const BatchView& v, const SolveSettings& s) {
   dualPairs(v, v.contacts, s.contactLeak);
   dualPairs(v, v.balls, 1);
   dualPairs(v, v.fixed, 1);
+  dualPairs(v, v.full, s.contactLeak);
   dualTets(v);
 }
 
@@ -239,6 +294,19 @@ void multiplyPairs(const BatchView& v, const uint32_t* rowA, const uint32_t* row
   });
 }
 
+void multiplyFull(const BatchView& v) {
+  forLanes(v.full.tiles, [&](uint32_t t, int o) {
+    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
+    const ScaledOp<R> op = v.fullOp[t].load<N>(o);
+    const PairOp<R>& pair = op.pair;
+    const Twist<R> u = shiftToPoint(gatherTwist<N>(v.p, v.full.a + at), pair.armA) * op.hessianA -
+                       shiftToPoint(gatherTwist<N>(v.p, v.full.b + at), pair.armB) * op.hessianB;
+    const Twist<R> w = pair.stiffness * u;
+    lane::scatterAddTwists<N>(v.q, v.full.a + at, shiftWrench(w, pair.armA) * op.hessianA, v.full.b + at,
+                              -(shiftWrench(w, pair.armB) * op.hessianB));
+  });
+}
+
 void multiplyTets(const BatchView& v) {
   forLanes(v.tets.tiles, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
@@ -269,6 +337,7 @@ void multiply(const BatchView& v) {
   multiplyPairs(v, v.balls.a, v.balls.b, op, v.balls.tiles);
   op += v.balls.tiles;
   multiplyPairs(v, v.fixed.a, v.fixed.b, op, v.fixed.tiles);
+  multiplyFull(v);
   multiplyTets(v);
 }
 

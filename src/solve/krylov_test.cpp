@@ -43,6 +43,8 @@ void addIsland(TestBatch& batch, uint32_t first, const IslandCase& c, Random& ra
     for (uint32_t i = 1; i < c.bodies; ++i) addContact(batch, rows[i - 1], rows[i], random);
     addContact(batch, batch.staticRow(), any(), random);
     addContact(batch, any(), batch.kinematicRow(0), random);
+    for (uint32_t i = 1; i < c.bodies; i += 2) addFull(batch, rows[i], rows[i - 1], random);
+    addFull(batch, batch.staticRow(), any(), random);
     if (c.bodies > 2) addJoint(batch, rows[0], rows[2], random);
     addJoint(batch, rows[0], batch.kinematicRow(0), random);
     if (c.bodies > 3) {

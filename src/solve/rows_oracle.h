@@ -132,6 +132,34 @@ struct RandomRows<rows::Contact> {
 };
 
 template <>
+struct RandomRows<rows::FullContact> {
+  using Rows = rows::FullContact<float>;
+  static constexpr bool kExactEverywhere = true;
+  static Rows any(Random& random) {
+    Rows f{};
+    f.contact = RandomRows<rows::Contact>::any(random);
+    f.torsional = std::max(0.0f, random.number(0.05f)), f.rolling = std::max(0.0f, random.number(0.05f));
+    f.biasTorsion = random.number(0.01f), f.bias1 = random.number(0.01f), f.bias2 = random.number(0.01f);
+    f.kTorsion = randomSize(random, 1e2f, 1e5f), f.kRolling = randomSize(random, 1e2f, 1e5f);
+    f.lambdaTorsion = random.number(30), f.lambda1 = random.number(30), f.lambda2 = random.number(30);
+    f.scaleA = std::fabs(random.number(2)), f.scaleB = random.bits() % 3 ? 1.0f : 0.0f;
+    f.hessianA = std::fabs(random.number(2)), f.hessianB = std::fabs(random.number(2));
+    return f;
+  }
+  static Rows exact(Random& random) { return any(random); }
+  static Rows atRest(Random& random) {
+    Rows f = any(random);
+    f.contact = RandomRows<rows::Contact>::atRest(random);
+    f.biasTorsion = f.bias1 = f.bias2 = f.lambdaTorsion = f.lambda1 = f.lambda2 = 0;
+    return f;
+  }
+  static void scaleForces(Rows& f, float by) {
+    RandomRows<rows::Contact>::scaleForces(f.contact, by);
+    f.kTorsion *= by, f.kRolling *= by, f.lambdaTorsion *= by, f.lambda1 *= by, f.lambda2 *= by;
+  }
+};
+
+template <>
 struct RandomRows<rows::BallJoint> {
   using Rows = rows::BallJoint<float>;
   static constexpr bool kExactEverywhere = false;
@@ -212,7 +240,7 @@ struct RandomRows<rows::TetVolume> {
 // ---- Rows as plain numbers -------------------------------------------------------------------------------------
 
 /// Where a row stands in a friction cone.
-enum class Cone : uint8_t { Outside, First, Second };
+enum class Cone : uint8_t { Outside, First, Second, Alone };
 
 /// ProbeSink that also keeps what the friction cone lets through.
 template <class R, int kMax>
@@ -231,12 +259,18 @@ struct ConeProbe : rows::ProbeSink<R, kMax> {
     keep(first + 1, allowed, limit, Cone::Second);
     return allowed;
   }
+  R emitBounded(const rows::PairRow<R>& one, R& multiplier, const R& limit) {
+    const int at = this->count;
+    const R allowed = Base::emitBounded(one, multiplier, limit);
+    keep(at, allowed, limit, Cone::Alone);
+    return allowed;
+  }
 
  private:
   void keep(int i, R allowed, R limit, Cone place) { share[i] = allowed, bound[i] = limit, cone[i] = place; }
 };
 
-inline constexpr int kMaxRows = 12, kMaxUnknowns = 12;
+inline constexpr int kMaxRows = 15, kMaxUnknowns = 12;
 
 /// Rows of one instance. Unknowns: (lin, ang) of A and of B, or lin of each block.
 template <class R>

@@ -38,7 +38,7 @@ struct SideView {
   const float* role = nullptr;      ///< by side: 0 this body is the pair's A, 1 its B; of four nodes 0 .. 3
 };
 
-enum SideFamily : int { kContactSides, kBallSides, kFixedSides, kTetSides, kSideFamilies };
+enum SideFamily : int { kContactSides, kBallSides, kFixedSides, kFullSides, kTetSides, kSideFamilies };
 
 struct SweepColor {
   uint32_t bodies = 0, places = 0;  ///< places: bodies, up to a multiple of 16

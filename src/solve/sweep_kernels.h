@@ -53,6 +53,7 @@ void stageRecords(const BatchView& v, const SweepView& w, const SolveSettings& s
   stagePairs(v, v.contacts, w.sides[kContactSides], s.contactLeak, dual);
   stagePairs(v, v.balls, w.sides[kBallSides], s.jointLeak, dual);
   stagePairs(v, v.fixed, w.sides[kFixedSides], s.jointLeak, dual);
+  stagePairs(v, v.full, w.sides[kFullSides], s.contactLeak, dual);
   stageTets(v, w.sides[kTetSides], dual);
 }
 
@@ -81,7 +82,12 @@ void stampSides(const BatchView& v, const SideView& sides, const SweepColor& col
       sink.clear();
       record.value().rows(select(isA, own, other), select(isA, other, own), sink);
       const V3<R> arm = select(isA, sink.armA, sink.armB);
-      const Twist<R> wrench = select(isA, sink.wrench, -sink.wrench);
+      Twist<R> wrench = select(isA, sink.wrench, -sink.wrench);
+      if constexpr (requires { record.value().scaleA; }) {
+        const R scale = select(isA, record.value().scaleA, record.value().scaleB);
+        wrench = wrench * scale;
+        sink.stiffness = sink.stiffness * scale;  // this body's own derivative, exactly
+      }
       gradient += shiftWrench(wrench, arm);
       hessian += shifted(sink.stiffness, arm);
       if constexpr (kJoint) hessian.aa = hessian.aa + geometricStiffness(-wrench.lin, arm);
@@ -144,6 +150,7 @@ void stampColor(const BatchView& v, const SweepView& w, const SweepColor& color)
   stampSides<Contact, false>(v, w.sides[kContactSides], color, kContactSides);
   stampSides<BallJoint, true>(v, w.sides[kBallSides], color, kBallSides);
   stampSides<FixedJoint, true>(v, w.sides[kFixedSides], color, kFixedSides);
+  stampSides<FullContact, false>(v, w.sides[kFullSides], color, kFullSides);
   stampTetSides(v, w.sides[kTetSides], color);
 }
 

@@ -26,6 +26,7 @@ void SweepPlan::build(const BatchView& view, const Colors& colors) {
             {{view.contacts.a, view.contacts.b}, 2, view.contacts.tiles * kTile, kRecord<Contact>});
   listSides(view, kBallSides, {{view.balls.a, view.balls.b}, 2, view.balls.tiles * kTile, kRecord<BallJoint>});
   listSides(view, kFixedSides, {{view.fixed.a, view.fixed.b}, 2, view.fixed.tiles * kTile, kRecord<FixedJoint>});
+  listSides(view, kFullSides, {{view.full.a, view.full.b}, 2, view.full.tiles * kTile, kRecord<FullContact>});
   const auto& node = view.tets.node;
   listSides(view, kTetSides, {{node[0], node[1], node[2], node[3]}, 4, view.tets.tiles * kTile, kRecord<TetVolume>});
 }

@@ -27,6 +27,8 @@ void addIsland(TestBatch& batch, uint32_t first, uint32_t bodies, Random& random
   for (uint32_t i = 1; i < bodies; ++i) addContact(batch, first + i - 1, first + i, random);
   addContact(batch, batch.staticRow(), any(), random);
   addContact(batch, any(), batch.kinematicRow(0), random);
+  for (uint32_t i = 1; i < bodies; i += 2) addFull(batch, first + i, first + i - 1, random);
+  addFull(batch, any(), batch.kinematicRow(0), random);
   addJoint(batch, batch.kinematicRow(0), any(), random);
   for (uint32_t i = 2; i < bodies; i += 2) addJoint(batch, first + i, first + i - 2, random);
   for (uint32_t i = 3; i < bodies; i += 3) {
@@ -70,7 +72,7 @@ struct Company {
 
 /// Moves one body to where its own 6x6 block says.
 void moveAlone(TestBatch& batch, uint32_t body) {
-  const DenseSystem system = systemOf(batch);
+  const DenseSystem system = systemOf(batch, Scaling::OwnBlocks);
   DenseMatrix block(6);
   std::vector<double> right(6);
   for (size_t i = 0; i < 6; ++i) {
@@ -93,6 +95,7 @@ void moveMultipliers(TestBatch& batch, const SolveSettings& s) {
   moveMultipliers(batch, batch.contacts, s.contactLeak);
   moveMultipliers(batch, batch.balls, s.jointLeak);
   moveMultipliers(batch, batch.fixed, s.jointLeak);
+  moveMultipliers(batch, batch.full, s.contactLeak);
   for (PlacedTet& tet : batch.tets) {
     V3<float> d[4];
     for (int i = 0; i < 4; ++i) d[i] = batch.motion(tet.node[i]).lin;
@@ -160,6 +163,7 @@ TEST(Sweep, WhatDoesNotMoveStaysWhereItIs) {
 TEST(Sweep, ABodyThatTouchesNothingGoesToItsTarget) {
   Company c({3});
   c.batch.contacts.clear(), c.batch.balls.clear(), c.batch.fixed.clear(), c.batch.tets.clear();
+  c.batch.full.clear();
   c.solve(4, settings(1));
   for (size_t i = 0; i < 3 * 8; ++i) EXPECT_NEAR(c.batch.d[i], c.batch.target[i], 1e-7) << i;
 }

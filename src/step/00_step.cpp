@@ -1,6 +1,8 @@
 // The whole frame on one page.
 #include <chrono>
 
+#include "step/contacts.h"
+#include "step/publish_events.h"
 #include "step/settings.h"
 #include "step/step.h"
 #include "step/step_data.h"
@@ -25,6 +27,7 @@ Stepper::~Stepper() = default;
 namespace {
 
 void substep(WorldData& world, StepData& step) {
+  if (world.contactHook && step.substep == 0) rememberPairs(world, step);
   run(Stage::Pairs, findPairs, world, step);
   run(Stage::Contacts, findContacts, world, step);
   run(Stage::Islands, findIslands, world, step);
@@ -41,6 +44,11 @@ void forgetForces(WorldData& world) {
   world.bodyIds.forEach([&](uint32_t slot) { world.bodies[slot].force = world.bodies[slot].torque = {}; });
 }
 
+void restore(WorldData& world, StepData& step) {
+  if (step.substep > 0) world.bodies = step.bodiesBefore;
+  if (step.pairsKept) restorePairs(world, step);
+}
+
 }  // namespace
 
 void Stepper::step(WorldData& world, float dt) {
@@ -48,12 +56,17 @@ void Stepper::step(WorldData& world, float dt) {
   world.report.seconds = {};
   if (world.def.substeps > 1) step.bodiesBefore = world.bodies;
   chooseSettings(world, step, dt / static_cast<float>(world.def.substeps));
-  for (int i = 0; i < world.def.substeps; ++i) {
+  beginEvents(world, step);
+  step.pairsKept = false;
+  for (step.substep = 0; step.substep < world.def.substeps; ++step.substep) {
     try {
       substep(world, step);
     } catch (const NonFiniteError&) {
-      if (i > 0) world.bodies = step.bodiesBefore;
+      restore(world, step);
       forgetForces(world);
+      throw;
+    } catch (const Error&) {  // of the contact hook's answer
+      restore(world, step);
       throw;
     }
   }

@@ -63,16 +63,7 @@ bool boundsOverlap(const WorldData& world, uint32_t a, uint32_t b) {
   return overlaps(world.tree.box(world.shapes[a].proxy), world.tree.box(world.shapes[b].proxy));
 }
 
-PairData newPair(const WorldData& world, uint64_t key) {
-  PairData pair;
-  pair.shapeA = static_cast<uint32_t>(key >> 32);
-  pair.shapeB = static_cast<uint32_t>(key);
-  pair.bodyA = world.shapes[pair.shapeA].body;
-  pair.bodyB = world.shapes[pair.shapeB].body;
-  return pair;
-}
-
-/// Old pairs that still overlap and new ones, in order of their keys.
+/// Old pairs that still overlap and new ones, in order of their keys; a run stays together.
 void mergePairs(WorldData& world, StepData& step) {
   std::vector<PairData>& merged = step.mergedPairs;
   merged.clear();
@@ -81,7 +72,10 @@ void mergePairs(WorldData& world, StepData& step) {
     for (; next < step.newKeys.size() && step.newKeys[next] < pair.key(); ++next)
       merged.push_back(newPair(world, step.newKeys[next]));
     if (next < step.newKeys.size() && step.newKeys[next] == pair.key()) ++next;
-    if (boundsOverlap(world, pair.shapeA, pair.shapeB)) merged.push_back(pair);
+    if (boundsOverlap(world, pair.shapeA, pair.shapeB))
+      merged.push_back(pair);
+    else
+      loseTouch(world, pair);
   }
   for (; next < step.newKeys.size(); ++next) merged.push_back(newPair(world, step.newKeys[next]));
   world.pairs.swap(merged);

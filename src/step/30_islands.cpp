@@ -91,6 +91,9 @@ void listPairs(const WorldData& world, StepData& step) {
     ++island.pairCount;
     if (!isDynamic(world, pair.bodyA) || !isDynamic(world, pair.bodyB)) island.floating = false;
   }
+  // Where a contact gives one body more than it takes from the other, momentum is not kept.
+  for (const ContactChange& change : step.changes)
+    if (change.scaleA != change.scaleB) step.islands[islandOfPair(step, world.pairs[change.pair])].floating = false;
   step.islandPairs.resize(layOut(step.islands, &Island::pairBegin, &Island::pairCount));
   for (uint32_t i = 0; i < world.pairs.size(); ++i) {
     if (world.pairs[i].pointCount == 0) continue;

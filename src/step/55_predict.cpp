@@ -26,6 +26,12 @@ void sumCarried(const WorldData& world, StepData& step) {
       const Vec3 l = pair.points[i].lambda;
       force = force + pair.normal * l.x + pair.t1 * l.y + pair.t2 * l.z;
     }
+    if (!step.changes.empty()) {
+      const ContactChange& change = changeOf(step, index);
+      step.carried[pair.bodyA] = step.carried[pair.bodyA] - force * change.scaleA;
+      step.carried[pair.bodyB] = step.carried[pair.bodyB] + force * change.scaleB;
+      continue;
+    }
     step.carried[pair.bodyA] = step.carried[pair.bodyA] - force;
     step.carried[pair.bodyB] = step.carried[pair.bodyB] + force;
   }

@@ -3,6 +3,7 @@
 
 #include "step/begin_rows.h"
 #include "step/free_motion.h"
+#include "step/publish_events.h"
 
 namespace avbd {
 
@@ -26,28 +27,79 @@ void publishBodies(WorldData& world, const StepData& step) {
   }
 }
 
-bool insideCone(const rows::ContactPointRows<float>& p) {
-  const float friction = p.lambda1 * p.lambda1 + p.lambda2 * p.lambda2;
-  const float bound = kSlipping * p.mu * p.lambdaN;
+/// What is published of a contact's rows.
+struct Forces {
+  PointForces normal;
+  float t1[kMaxManifoldPoints], t2[kMaxManifoldPoints], mu[kMaxManifoldPoints];
+};
+
+AVBD_INLINE Forces forcesOf(const rows::Contact<float>& c) {
+  Forces forces;
+  for (int i = 0; i < kMaxManifoldPoints; ++i) {
+    forces.normal[static_cast<size_t>(i)] = c.point[i].lambdaN;
+    forces.t1[i] = c.point[i].lambda1, forces.t2[i] = c.point[i].lambda2, forces.mu[i] = c.point[i].mu;
+  }
+  return forces;
+}
+
+bool insideCone(Vec3 lambda, float mu) {
+  const float friction = lambda.y * lambda.y + lambda.z * lambda.z;
+  const float bound = kSlipping * mu * lambda.x;
   return friction < bound * bound;
 }
 
-void publishContacts(WorldData& world, const StepData& step) {
+void publishPoints(PairData& pair, const Forces& forces) {
+  bool slides = true;
+  for (int i = 0; i < pair.pointCount; ++i) {
+    PointMemory& point = pair.points[i];
+    point.lambda = {forces.normal[static_cast<size_t>(i)], forces.t1[i], forces.t2[i]};
+    point.sticks = insideCone(point.lambda, forces.mu[i]) ? 1 : 0;
+    if (point.sticks) slides = false;
+  }
+  pair.slides = slides ? static_cast<uint8_t>(std::min(pair.slides + 1, 255)) : uint8_t{0};
+  pair.landedSliding = pair.landedSliding && slides;
+}
+
+/// `turned`: of A against B in this step. What slips forgets how far it has turned.
+void publishTurning(PairData& pair, const rows::FullContact<float>& full, Vec3 turned) {
+  float load = 0;
+  for (int i = 0; i < pair.pointCount; ++i) load += full.contact.point[i].lambdaN;
+  const Vec3 torque{full.lambdaTorsion, full.lambda1, full.lambda2};
+  const float torsion = kSlipping * full.torsional * load, rolling = kSlipping * full.rolling * load;
+  const bool torsionSticks = torque.x * torque.x < torsion * torsion;
+  const bool rollingSticks = torque.y * torque.y + torque.z * torque.z < rolling * rolling;
+  pair.torque = torque;
+  pair.turn.x = torsionSticks ? pair.turn.x + dot(turned, pair.normal) : 0;
+  pair.turn.y = rollingSticks ? pair.turn.y + dot(turned, pair.t1) : 0;
+  pair.turn.z = rollingSticks ? pair.turn.z + dot(turned, pair.t2) : 0;
+}
+
+/// Of a body row over all batches, in this step.
+Vec3 turnOf(const StepData& step, uint32_t row) {
+  const float* d = step.d.data() + size_t(8) * row;
+  return {d[4], d[5], d[6]};
+}
+
+void publishContacts(WorldData& world, StepData& step) {
   for (size_t lane = 0; lane < step.contactPair.size(); ++lane) {
     if (step.contactPair[lane] == kNone) continue;
-    PairData& pair = world.pairs[step.contactPair[lane]];
-    const rows::Contact<float> c = step.contacts[lane / kTile].get(lane % kTile);
-    bool slides = true;
-    for (int i = 0; i < pair.pointCount; ++i) {
-      PointMemory& point = pair.points[i];
-      const rows::ContactPointRows<float>& p = c.point[i];
-      point.lambda = {p.lambdaN, p.lambda1, p.lambda2};
-      point.sticks = insideCone(p) ? 1 : 0;
-      if (point.sticks) slides = false;
-    }
-    pair.slides = slides ? static_cast<uint8_t>(std::min(pair.slides + 1, 255)) : uint8_t{0};
-    pair.landedSliding = pair.landedSliding && slides;
+    const Forces forces = forcesOf(step.contacts[lane / kTile].get(lane % kTile));
+    noteContact(world, step, step.contactPair[lane], forces.normal);
+    publishPoints(world.pairs[step.contactPair[lane]], forces);
   }
+  for (const BatchRange& batch : step.batches)
+    for (size_t lane = size_t(batch.fullTile) * kTile; lane < size_t(batch.fullTile + batch.fullTiles) * kTile;
+         ++lane) {
+      if (step.fullPair[lane] == kNone) continue;
+      const rows::FullContact<float> full = step.full[lane / kTile].get(lane % kTile);
+      PairData& pair = world.pairs[step.fullPair[lane]];
+      const Forces forces = forcesOf(full.contact);
+      noteContact(world, step, step.fullPair[lane], forces.normal);
+      publishPoints(pair, forces);
+      publishTurning(
+          pair, full,
+          turnOf(step, batch.rowBegin + step.fullRow[0][lane]) - turnOf(step, batch.rowBegin + step.fullRow[1][lane]));
+    }
 }
 
 void publishJoint(JointData& joint, const rows::BallJoint<float>& ball, rows::V3<float> torque) {
@@ -82,9 +134,11 @@ void publishJoints(WorldData& world, const StepData& step) {
 }  // namespace
 
 void publish(WorldData& world, StepData& step) {
-  publishBodies(world, step);
+  world.treeBehind = true;
   publishContacts(world, step);
+  publishBodies(world, step);
   publishJoints(world, step);
+  if (step.substep + 1 == world.def.substeps) publishEvents(world, step);
   world.report.simdWidth = static_cast<uint32_t>(step.backend->width);
 }
 

@@ -17,10 +17,11 @@ void padLanes(std::vector<uint32_t>& lanes, uint32_t value) {
 }
 
 void clearLanes(StepData& step) {
-  for (auto* lanes : {step.contactRow, step.ballRow, step.fixedRow})
+  for (auto* lanes : {step.contactRow, step.ballRow, step.fixedRow, step.fullRow})
     for (int side = 0; side < 2; ++side) lanes[side].clear();
   for (auto& lanes : step.tetRow) lanes.clear();
   step.contactPair.clear(), step.ballJoint.clear(), step.fixedJoint.clear(), step.tetJoint.clear();
+  step.fullPair.clear();
   step.batches.clear(), step.ranges.clear(), step.lockedRows.clear(), step.locks.clear();
   step.forestCount = 0;
 }
@@ -50,17 +51,22 @@ void addBodies(const WorldData& world, StepData& step, BatchRange& batch) {
 
 void addPairs(const WorldData& world, StepData& step, BatchRange& batch) {
   batch.contactTile = static_cast<uint32_t>(step.contactPair.size()) / kTile;
+  batch.fullTile = static_cast<uint32_t>(step.fullPair.size()) / kTile;
   for (uint32_t n = 0; n < batch.islandCount; ++n) {
     const Island& island = step.islands[batch.islandBegin + n];
     for (uint32_t i = 0; i < island.pairCount; ++i) {
       const uint32_t pair = step.islandPairs[island.pairBegin + i];
-      step.contactPair.push_back(pair);
-      step.contactRow[0].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyA));
-      step.contactRow[1].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyB));
+      const bool full = world.pairs[pair].isFull;
+      auto& row = full ? step.fullRow : step.contactRow;
+      (full ? step.fullPair : step.contactPair).push_back(pair);
+      row[0].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyA));
+      row[1].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyB));
     }
   }
-  padLanes(step.contactPair, kNone);
+  padLanes(step.contactPair, kNone), padLanes(step.fullPair, kNone);
   for (auto& lanes : step.contactRow) padLanes(lanes, batch.bodies);
+  for (auto& lanes : step.fullRow) padLanes(lanes, batch.bodies);
+  batch.fullTiles = static_cast<uint32_t>(step.fullPair.size()) / kTile - batch.fullTile;
   batch.contactTiles = static_cast<uint32_t>(step.contactPair.size()) / kTile - batch.contactTile;
 }
 
@@ -91,11 +97,20 @@ void resizeTiles(StepData& step) {
   step.balls.resize(step.ballJoint.size() / kTile);
   step.fixed.resize(step.fixedJoint.size() / kTile);
   step.tets.resize(step.tetJoint.size() / kTile);
+  step.full.resize(step.fullPair.size() / kTile);
+  step.fullOp.resize(step.full.size());
   step.op.resize(step.contacts.size() + step.balls.size() + step.fixed.size());
   step.tetOp.resize(step.tets.size());
 }
 
 }  // namespace
+
+const ContactChange& changeOf(const StepData& step, uint32_t pair) {
+  static constexpr ContactChange kNoChange;
+  const auto at = std::lower_bound(step.changes.begin(), step.changes.end(), pair,
+                                   [](const ContactChange& change, uint32_t index) { return change.pair < index; });
+  return at != step.changes.end() && at->pair == pair ? *at : kNoChange;
+}
 
 uint32_t rowInBatch(const WorldData& world, StepData& step, BatchRange& batch, uint32_t body) {
   if (body == kNone || world.bodies[body].type == BodyType::Static) return batch.bodies;
@@ -151,6 +166,9 @@ BatchView StepData::view(size_t index) {
   v.fixed = {fixed.data() + b.fixedTile, fixedRow[0].data() + b.fixedTile * kTile,
              fixedRow[1].data() + b.fixedTile * kTile, b.fixedTiles};
   v.op = op.data() + b.contactTile + b.ballTile + b.fixedTile;
+  v.full = {full.data() + b.fullTile, fullRow[0].data() + b.fullTile * kTile, fullRow[1].data() + b.fullTile * kTile,
+            b.fullTiles};
+  v.fullOp = fullOp.data() + b.fullTile;
   v.tets.tile = tets.data() + b.tetTile;
   v.tets.op = tetOp.data() + b.tetTile;
   v.tets.tiles = b.tetTiles;

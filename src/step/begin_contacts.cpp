@@ -44,6 +44,14 @@ rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& 
   return p;
 }
 
+/// Unlike others, a belt gives no place to stick to, only a velocity.
+void moveSurface(const StepData& step, const PairData& pair, Vec3 belt, rows::Contact<float>& c) {
+  for (int i = 0; i < pair.pointCount; ++i) {
+    c.point[i].bias1 = dot(belt, pair.t1) * step.h;
+    c.point[i].bias2 = dot(belt, pair.t2) * step.h;
+  }
+}
+
 rows::Contact<float> contactRows(const WorldData& world, const StepData& step, PairData& pair) {
   rows::Contact<float> c{};
   c.n = toRow(pair.normal), c.t1 = toRow(pair.t1), c.t2 = toRow(pair.t2);
@@ -61,14 +69,42 @@ rows::Contact<float> contactRows(const WorldData& world, const StepData& step, P
   return c;
 }
 
+rows::Contact<float> changedRows(WorldData& world, const StepData& step, uint32_t index) {
+  rows::Contact<float> c = contactRows(world, step, world.pairs[index]);
+  if (step.changes.empty()) return c;
+  const ContactChange& change = changeOf(step, index);
+  if (change.belt != Vec3{}) moveSurface(step, world.pairs[index], change.belt, c);
+  return c;
+}
+
+rows::FullContact<float> fullRows(WorldData& world, const StepData& step, uint32_t index) {
+  const PairData& pair = world.pairs[index];
+  const ContactChange& change = changeOf(step, index);
+  const float leak = step.solve.contactLeak, share = 1 - step.alpha;
+  rows::FullContact<float> full{};
+  full.contact = changedRows(world, step, index);
+  full.torsional = pair.torsionalFriction, full.rolling = pair.rollingFriction;
+  full.biasTorsion = share * pair.turn.x, full.bias1 = share * pair.turn.y, full.bias2 = share * pair.turn.z;
+  full.lambdaTorsion = leak * pair.torque.x;
+  full.lambda1 = leak * pair.torque.y, full.lambda2 = leak * pair.torque.z;
+  full.scaleA = change.scaleA, full.scaleB = change.scaleB;
+  return full;
+}
+
 }  // namespace
 
 void fillContacts(WorldData& world, StepData& step) {
   for (size_t lane = 0; lane < step.contactPair.size(); ++lane) {
     const uint32_t pair = step.contactPair[lane];
     rows::Contact<float> c{};
-    if (pair != kNone) c = contactRows(world, step, world.pairs[pair]);
+    if (pair != kNone) c = changedRows(world, step, pair);
     step.contacts[lane / kTile].set(lane % kTile, c);
+  }
+  for (size_t lane = 0; lane < step.fullPair.size(); ++lane) {
+    const uint32_t pair = step.fullPair[lane];
+    rows::FullContact<float> full{};
+    if (pair != kNone) full = fullRows(world, step, pair);
+    step.full[lane / kTile].set(lane % kTile, full);
   }
 }
 

@@ -1,5 +1,6 @@
 // Same bits: at every lane width, in every run, whatever else is in the world, and at every scale of two.
 #include <avbd/avbd.h>
+#include <avbd/mesh.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -97,8 +98,67 @@ std::vector<BodyId> addLocked(World& world, BodyId, Vec3d at) {
   return ids;
 }
 
-const std::pair<const char*, Scene> kScenes[] = {{"pile", addPile},         {"chain", addChain}, {"frame", addFrame},
-                                                 {"conveyor", addConveyor}, {"soft", addSoft},   {"locked", addLocked}};
+/// Bodies tumble over a rough mesh, one of them turns it; a trigger watches.
+std::vector<BodyId> addTerrain(World& world, BodyId, Vec3d at) {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  constexpr uint32_t kSide = 9;
+  for (uint32_t i = 0; i < kSide * kSide; ++i) {
+    const uint32_t x = i % kSide, z = i / kSide;
+    vertices.push_back({0.5f * static_cast<float>(x) - 2, 0.07f * static_cast<float>((3 * x + 5 * z) % 7),
+                        0.5f * static_cast<float>(z) - 2});
+    if (x + 1 == kSide || z + 1 == kSide) continue;
+    triangles.push_back({i, i + kSide, i + kSide + 1});
+    triangles.push_back({i, i + kSide + 1, i + 1});
+  }
+  BodyDef terrain{.type = BodyType::Kinematic, .position = at + Vec3d{0, 1, 0}, .angularVelocity = {0, 0.2f, 0}};
+  terrain.shapes.push_back({.geometry = Mesh{makeMesh({.vertices = vertices, .triangles = triangles})}});
+  terrain.shapes.push_back({.geometry = Sphere{1}, .pose = {{0, 1, 0}, {}}, .isTrigger = true});
+  std::vector<BodyId> ids{world.create(terrain)};
+  for (int i = 0; i < 10; ++i)
+    ids.push_back(world.create(BodyDef{.position = at + Vec3d{0.4 * (i % 4) - 0.6, 1.8 + 0.4 * (i / 4), 0.4 * (i % 3)},
+                                       .rotation = {0.8f, 0, 0.6f, 0},
+                                       .shape = shapeOf(i)}));
+  return ids;
+}
+
+/// Torsional and rolling friction, among bodies and on the ground.
+std::vector<BodyId> addRolling(World& world, BodyId, Vec3d at) {
+  std::vector<BodyId> ids;
+  const Material own{.frictionPriority = 1, .rollingFriction = 0.01f};
+  for (int i = 0; i < 10; ++i) {
+    Material material = own;
+    material.torsionalFriction = i % 2 ? 0.02f : 0.0f;
+    ids.push_back(world.create(BodyDef{.position = at + Vec3d{0.3 * (i % 3), 0.4 + 0.5 * (i / 3), 0.2 * (i % 2)},
+                                       .linearVelocity = {1, 0, 0.5f},
+                                       .angularVelocity = {0, 5, 1},
+                                       .shape = shapeOf(i),
+                                       .material = i % 4 == 3 ? Material{} : material}));
+  }
+  return ids;
+}
+
+/// A hook with belts, scaled masses and refusals, which looks at nothing but the plan.
+std::vector<BodyId> addHooked(World& world, BodyId, Vec3d at) {
+  world.setContactHook([](ContactPlan& plan) {
+    plan.surfaceVelocity = plan.pointCount > 2 ? Vec3{0.5f, 0, 0.2f} : Vec3{};
+    plan.inverseMassScaleB = plan.pointCount > 2 ? 0.5f : 1.0f;
+    plan.rollingFriction = 0.01f;
+    return plan.separations[0] > -0.3f;
+  });
+  std::vector<BodyId> ids;
+  for (int i = 0; i < 12; ++i) {
+    BodyDef def{.position = at + Vec3d{0.31 * (i % 3), 0.4 + 0.45 * (i / 3), 0.29 * (i % 2)}};
+    def.shapes.push_back({.geometry = shapeOf(i), .contactHook = i % 3 != 2});
+    ids.push_back(world.create(def));
+  }
+  return ids;
+}
+
+const std::pair<const char*, Scene> kScenes[] = {
+    {"pile", addPile},         {"chain", addChain},     {"frame", addFrame},
+    {"conveyor", addConveyor}, {"soft", addSoft},       {"locked", addLocked},
+    {"terrain", addTerrain},   {"rolling", addRolling}, {"hooked", addHooked}};
 
 uint64_t hashAfter(const Scene& scene, WorldDef def, int steps) {
   World world(def);

@@ -32,13 +32,16 @@ void addSide(const WorldData& world, const StepData& step, uint32_t slot, Vec3 a
   const uint32_t row = step.rowOfEnd[step.endOf[slot]];
   const Vec3 lever = cross(arm, bounce.n);
   const Vec3 turn = turning(step, row, lever);
-  bounce.weight += step.invMass[size_t(8) * row] + dot(lever, turn);
+  bounce.weight += (sign > 0 ? bounce.scaleB : bounce.scaleA) * (step.invMass[size_t(8) * row] + dot(lever, turn));
   (sign > 0 ? bounce.b : bounce.a) = step.endOf[slot];
   (sign > 0 ? bounce.turnB : bounce.turnA) = turn;
 }
 
-Bounce makeBounce(const WorldData& world, const StepData& step, const PairData& pair, int i) {
+Bounce makeBounce(const WorldData& world, const StepData& step, uint32_t index, int i) {
+  const PairData& pair = world.pairs[index];
+  const ContactChange& change = changeOf(step, index);
   Bounce bounce;
+  bounce.scaleA = change.scaleA, bounce.scaleB = change.scaleB;
   bounce.n = pair.normal;
   bounce.armA = pair.manifold.points[i].position;
   bounce.armB = bounce.armA - toFloat(world.bodies[pair.bodyB].position - pair.origin);
@@ -56,9 +59,9 @@ void push(StepData& step, const Bounce& bounce, float impulse) {
     end.angularVelocity = end.angularVelocity + turn * p;
   };
   if (bounce.a != kNone)
-    give(bounce.a, bounce.turnA, -impulse, step.invMass.data() + size_t(8) * step.rowOfEnd[bounce.a]);
+    give(bounce.a, bounce.turnA, -impulse * bounce.scaleA, step.invMass.data() + size_t(8) * step.rowOfEnd[bounce.a]);
   if (bounce.b != kNone)
-    give(bounce.b, bounce.turnB, impulse, step.invMass.data() + size_t(8) * step.rowOfEnd[bounce.b]);
+    give(bounce.b, bounce.turnB, impulse * bounce.scaleB, step.invMass.data() + size_t(8) * step.rowOfEnd[bounce.b]);
 }
 
 float separationSpeed(const StepData& step, const Bounce& bounce) {
@@ -95,21 +98,34 @@ Rebound rebound(const WorldData& world, const StepData& step, const PairData& pa
   return {std::max(height, 0.0f), std::max(leave - pull * (0.5f * h - time), 0.0f)};
 }
 
-void applyRestitution(const WorldData& world, StepData& step) {
-  std::vector<Bounce>& bounces = step.bounces;
-  bounces.clear();
-  for (size_t lane = 0; lane < step.contactPair.size(); ++lane) {
-    if (step.contactPair[lane] == kNone) continue;
-    const PairData& pair = world.pairs[step.contactPair[lane]];
+namespace {
+
+/// `contactAt(lane)`: the contact's rows.
+template <class ContactAt>
+void listBounces(const WorldData& world, StepData& step, const std::vector<uint32_t>& pairs, ContactAt contactAt) {
+  for (size_t lane = 0; lane < pairs.size(); ++lane) {
+    if (pairs[lane] == kNone) continue;
+    const PairData& pair = world.pairs[pairs[lane]];
     if (pair.restitution <= 0) continue;
     for (int i = 0; i < pair.pointCount; ++i) {
       if (pair.points[i].rebound <= 0) continue;
-      const float force = step.contacts[lane / kTile].get(lane % kTile).point[i].lambdaN;
+      const float force = contactAt(lane).point[i].lambdaN;
       if (force <= 0) continue;
-      bounces.push_back(makeBounce(world, step, pair, i));
-      bounces.back().least = -force * step.h;
+      step.bounces.push_back(makeBounce(world, step, pairs[lane], i));
+      step.bounces.back().least = -force * step.h;
     }
   }
+}
+
+}  // namespace
+
+void applyRestitution(const WorldData& world, StepData& step) {
+  std::vector<Bounce>& bounces = step.bounces;
+  bounces.clear();
+  listBounces(world, step, step.contactPair,
+              [&](size_t lane) { return step.contacts[lane / kTile].get(lane % kTile); });
+  listBounces(world, step, step.fullPair,
+              [&](size_t lane) { return step.full[lane / kTile].get(lane % kTile).contact; });
   for (int pass = 0; pass < kPasses; ++pass)
     for (Bounce& bounce : bounces) {
       const float wanted = bounce.impulse + bounce.weight * (bounce.speed - separationSpeed(step, bounce));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/aligned.h"
+#include "collide/collide_surface.h"
 #include "solve/backend.h"
 #include "solve/krylov.h"
 #include "solve/sweep.h"
@@ -31,6 +32,7 @@ struct BatchRange {
   uint32_t ballTile = 0, ballTiles = 0;
   uint32_t fixedTile = 0, fixedTiles = 0;
   uint32_t tetTile = 0, tetTiles = 0;
+  uint32_t fullTile = 0, fullTiles = 0;
   uint32_t lockedBegin = 0, lockedCount = 0;
   uint32_t forest = kNone;  ///< in StepData::forests
 };
@@ -43,6 +45,7 @@ struct Bounce {
   float speed = 0;               ///< to reach
   float fixedSpeed = 0;          ///< of kinematic bodies along n, B minus A
   float weight = 0;              ///< 1 / inverse mass along n
+  float scaleA = 1, scaleB = 1;  ///< of the inverse masses
   float impulse = 0, least = 0;  ///< [N s]
 };
 
@@ -70,6 +73,36 @@ struct Coloring {
   std::vector<uint32_t> takenBy;               ///< by colour: the last body that found it at a neighbour
 };
 
+/// Directions that the memory of a point is given in.
+struct ContactBasis {
+  Vec3 normal, t1, t2;
+};
+
+/// What a point of the last step remembered.
+struct OldPoint {
+  PointMemory memory;
+  ContactBasis basis;
+};
+
+/// What the contact hook wants of a contact beyond its coefficients.
+struct ContactChange {
+  uint32_t pair = kNone;         ///< index
+  Vec3 belt;                     ///< [m/s] at which B's surface shall slide over A's
+  float scaleA = 1, scaleB = 1;  ///< of the inverse masses
+};
+
+/// What the contacts of a pair that reports hits did in a substep, patch by patch.
+struct HitRecord {
+  uint64_t key = 0;  ///< of the pair
+  uint32_t order = 0;
+  HitEvent event;
+};
+
+struct PoseBefore {
+  Vec3d position;
+  Quat rotation;
+};
+
 struct StepData {
   float h = 0;          ///< [s] of a substep
   float alpha = 0;      ///< share of a violation at the start of the step that a row keeps
@@ -77,13 +110,29 @@ struct StepData {
   float loadDepth = 0;  ///< [m] at which a loaded row holds its load
   SolveSettings solve;
   const Backend* backend = nullptr;
+  int substep = 0;  ///< that runs
 
   std::vector<BodyData> bodiesBefore;  ///< the whole step, where substeps may fail
+  std::vector<PairData> pairsBefore;   ///< the same, where the contact hook may fail: if pairsKept
+  size_t lostBefore = 0;               ///< how many lostTouches there were then
+  bool pairsKept = false;
 
   // 10_pairs
   std::vector<uint32_t> moved;  ///< shapes that left their fat bounds
   std::vector<uint64_t> newKeys;
   std::vector<PairData> mergedPairs;
+
+  // 20_contacts
+  std::vector<SurfacePatch> patches;   ///< of one pair with a surface; by patch:
+  std::vector<uint32_t> entryOf;       ///< place in the run
+  std::vector<uint8_t> continues;      ///< it was touched in the last step
+  std::vector<uint32_t> match;         ///< by point, kMaxManifoldPoints a patch: the old point that it continues
+  std::vector<uint32_t> patchOf;       ///< by place in the run: its patch, kNone
+  std::vector<OldPoint> oldPoints;     ///< of the whole run
+  std::vector<uint32_t> oldEntry;      ///< their places in the run
+  std::vector<uint8_t> oldTaken;       ///< some new point continues it
+  std::vector<PairData> overflow;      ///< entries for which runs are too short, by key
+  std::vector<ContactChange> changes;  ///< by pair
 
   // 30_islands
   std::vector<uint32_t> parent;    ///< union-find, by body slot
@@ -119,10 +168,13 @@ struct StepData {
   AlignedVector<Tile<rows::BallJoint>> balls;
   AlignedVector<Tile<rows::FixedJoint>> fixed;
   AlignedVector<Tile<rows::TetVolume>> tets;
-  std::vector<uint32_t> contactRow[2], ballRow[2], fixedRow[2], tetRow[4];
+  AlignedVector<Tile<rows::FullContact>> full;
+  std::vector<uint32_t> contactRow[2], ballRow[2], fixedRow[2], tetRow[4], fullRow[2];
   std::vector<uint32_t> contactPair, ballJoint, fixedJoint, tetJoint;  ///< by lane: pair or joint slot, kNone
   AlignedVector<Tile<PairOp>> op;
+  std::vector<uint32_t> fullPair;  ///< by lane, as contactPair
   AlignedVector<Tile<NodeOp>> tetOp;
+  AlignedVector<Tile<ScaledOp>> fullOp;
   std::vector<Forest> forests;  ///< the first forestCount are in use
   uint32_t forestCount = 0;
   ForestScratch planting;
@@ -140,6 +192,11 @@ struct StepData {
   std::vector<uint32_t> rowOfEnd;  ///< body row over all batches, by index in end
   std::vector<uint32_t> endOf;     ///< index in end, by body slot
 
+  // 90_publish
+  std::vector<uint64_t> touchChanges;   ///< keys of pairs that may have begun or ended to touch
+  std::vector<HitRecord> hits;          ///< of all substeps so far
+  std::vector<PoseBefore> posesBefore;  ///< by body slot, where moves are events
+
   BatchView view(size_t batch);
 };
 
@@ -148,6 +205,9 @@ inline uint32_t islandOfPair(const StepData& step, const PairData& pair) {
   const uint32_t a = step.islandOf[pair.bodyA];
   return a != kNone ? a : step.islandOf[pair.bodyB];
 }
+
+/// What the contact hook changed in a pair.
+const ContactChange& changeOf(const StepData& step, uint32_t pair);
 
 inline constexpr float kSpeculative = 0.005f;  ///< of the length unit: margin within which contacts are found
 

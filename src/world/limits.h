@@ -12,6 +12,9 @@ inline constexpr double kMaxSpin = 1e6;                     ///< [rad/s]
 inline constexpr double kMaxAcceleration = 1e6;             ///< [1/s^2]
 inline constexpr double kMinUnit = 1e-6, kMaxUnit = 1e6;    ///< of lengthUnit itself
 
+/// [s] Shorter steps would square to nothing in float.
+inline constexpr float kMinSubstep = 1e-7f;
+
 inline constexpr double kMinMass = 1e-24, kMaxMass = 1e18;        ///< [kg]
 inline constexpr double kMinInertia = 1e-34, kMaxInertia = 1e30;  ///< [kg m^2], of each principal moment
 inline constexpr double kMaxDensity = 1e12;                       ///< [kg/m^3]

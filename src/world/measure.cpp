@@ -65,6 +65,9 @@ Contact contactOf(const WorldData& data, const PairData& pair) {
   contact.shapeB = data.shapeIds.id(pair.shapeB);
   contact.bodyA = data.bodyIds.id(pair.bodyA);
   contact.bodyB = data.bodyIds.id(pair.bodyB);
+  if (pair.hasSurface) {
+    (isSurface(data.shapes[pair.shapeA].geom.type) ? contact.elementA : contact.elementB) = pair.element;
+  }
   contact.normal = pair.manifold.normal;
   contact.pointCount = pair.manifold.count;
   for (int i = 0; i < pair.manifold.count; ++i) {

@@ -6,7 +6,7 @@
 namespace avbd {
 namespace {
 
-uint64_t bodyPair(uint32_t a, uint32_t b) {
+uint64_t slotPair(uint32_t a, uint32_t b) {
   const uint64_t low = std::min(a, b), high = std::max(a, b);
   return low << 32 | high;
 }
@@ -22,9 +22,58 @@ bool filtersMeet(const Filter& a, const Filter& b) {
 bool mayTouch(const WorldData& data, uint32_t shapeA, uint32_t shapeB) {
   const ShapeData &a = data.shapes[shapeA], &b = data.shapes[shapeB];
   if (a.body == b.body) return false;
-  const bool anyDynamic =
-      data.bodies[a.body].type == BodyType::Dynamic || data.bodies[b.body].type == BodyType::Dynamic;
-  return anyDynamic && filtersMeet(a.filter, b.filter) && !isExcluded(data, a.body, b.body);
+  const BodyType typeA = data.bodies[a.body].type, typeB = data.bodies[b.body].type;
+  if (a.isTrigger || b.isTrigger) {
+    if (a.isTrigger && b.isTrigger) return false;
+    if ((a.isTrigger ? typeB : typeA) == BodyType::Static) return false;
+  } else if (typeA != BodyType::Dynamic && typeB != BodyType::Dynamic) {
+    return false;
+  }
+  if (!isConvex(a.geom.type) && !isConvex(b.geom.type)) return false;
+  return filtersMeet(a.filter, b.filter) && !isExcluded(data, a.body, b.body);
+}
+
+PairData newPair(const WorldData& data, uint64_t key) {
+  PairData pair;
+  pair.shapeA = static_cast<uint32_t>(key >> 32);
+  pair.shapeB = static_cast<uint32_t>(key);
+  const ShapeData &a = data.shapes[pair.shapeA], &b = data.shapes[pair.shapeB];
+  pair.bodyA = a.body;
+  pair.bodyB = b.body;
+  pair.generation[0] = data.shapeIds.id(pair.shapeA).generation;
+  pair.generation[1] = data.shapeIds.id(pair.shapeB).generation;
+  pair.generation[2] = data.bodyIds.id(pair.bodyA).generation;
+  pair.generation[3] = data.bodyIds.id(pair.bodyB).generation;
+  pair.hasSurface = isSurface(a.geom.type) || isSurface(b.geom.type);
+  pair.isTrigger = a.isTrigger || b.isTrigger;
+  pair.triggerIsA = a.isTrigger;
+  pair.reports = pair.isTrigger || (a.contactEvents && b.contactEvents);
+  pair.wantsHits = a.hitEvents || b.hitEvents;
+  pair.hasHook = a.contactHook || b.contactHook;
+  return pair;
+}
+
+void loseTouch(WorldData& data, const PairData& pair) {
+  if (!pair.wasTouching || pair.patch != 0) return;
+  data.lostTouches.push_back({{pair.shapeId(0), pair.shapeId(1)},
+                              {pair.bodyId(0), pair.bodyId(1)},
+                              pair.isTrigger,
+                              pair.triggerIsA,
+                              pair.reports});
+}
+
+namespace {
+
+struct KeyOrder {
+  bool operator()(const PairData& pair, uint64_t key) const { return pair.key() < key; }
+  bool operator()(uint64_t key, const PairData& pair) const { return key < pair.key(); }
+};
+
+}  // namespace
+
+PairData* findPair(WorldData& data, uint64_t key) {
+  const auto at = std::lower_bound(data.pairs.begin(), data.pairs.end(), key, KeyOrder{});
+  return at != data.pairs.end() && at->key() == key ? &*at : nullptr;
 }
 
 namespace {
@@ -59,7 +108,11 @@ std::vector<bool> forgottenShapes(const WorldData& data) {
 void dropForgottenPairs(WorldData& data) {
   if (data.forgotten.empty()) return;
   const std::vector<bool> isForgotten = forgottenShapes(data);
-  std::erase_if(data.pairs, [&](const PairData& pair) { return isForgotten[pair.shapeA] || isForgotten[pair.shapeB]; });
+  std::erase_if(data.pairs, [&](const PairData& pair) {
+    if (!isForgotten[pair.shapeA] && !isForgotten[pair.shapeB]) return false;
+    loseTouch(data, pair);
+    return true;
+  });
   data.forgotten.clear();
 }
 
@@ -67,12 +120,10 @@ void erasePairsBetween(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
   if (data.pairs.empty()) return;
   for (uint32_t a = data.bodies[bodyA].firstShape; a != kNone; a = data.shapes[a].next) {
     for (uint32_t b = data.bodies[bodyB].firstShape; b != kNone; b = data.shapes[b].next) {
-      PairData wanted;
-      wanted.shapeA = std::min(a, b);
-      wanted.shapeB = std::max(a, b);
-      const auto at = std::lower_bound(data.pairs.begin(), data.pairs.end(), wanted,
-                                       [](const PairData& x, const PairData& y) { return x.key() < y.key(); });
-      if (at != data.pairs.end() && at->key() == wanted.key()) data.pairs.erase(at);
+      const auto run = std::equal_range(data.pairs.begin(), data.pairs.end(), slotPair(a, b), KeyOrder{});
+      if (run.first == run.second) continue;
+      loseTouch(data, *run.first);
+      data.pairs.erase(run.first, run.second);
     }
   }
 }
@@ -86,13 +137,13 @@ void markBodyUnpaired(WorldData& data, uint32_t body) {
 void unmarkUnpaired(WorldData& data, uint32_t shape) { eraseSlot(data.unpaired, shape); }
 
 void exclude(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
-  const uint64_t pair = bodyPair(bodyA, bodyB);
+  const uint64_t pair = slotPair(bodyA, bodyB);
   data.excludedPairs.insert(std::upper_bound(data.excludedPairs.begin(), data.excludedPairs.end(), pair), pair);
   erasePairsBetween(data, bodyA, bodyB);
 }
 
 void endExclusion(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
-  const uint64_t pair = bodyPair(bodyA, bodyB);
+  const uint64_t pair = slotPair(bodyA, bodyB);
   const auto at = std::lower_bound(data.excludedPairs.begin(), data.excludedPairs.end(), pair);
   AVBD_ASSERT(at != data.excludedPairs.end() && *at == pair);
   data.excludedPairs.erase(at);
@@ -106,7 +157,7 @@ void endExclusionsOf(WorldData& data, uint32_t body) {
 }
 
 bool isExcluded(const WorldData& data, uint32_t bodyA, uint32_t bodyB) {
-  return std::binary_search(data.excludedPairs.begin(), data.excludedPairs.end(), bodyPair(bodyA, bodyB));
+  return std::binary_search(data.excludedPairs.begin(), data.excludedPairs.end(), slotPair(bodyA, bodyB));
 }
 
 }  // namespace avbd

@@ -7,8 +7,15 @@ namespace avbd {
 
 /// Groups, categories and masks.
 bool filtersMeet(const Filter& a, const Filter& b);
-/// Whether a pair of these two shapes may exist: different bodies, one of them dynamic, filters, exclusions.
+/// Whether a pair of these two shapes may exist: different bodies, one of them dynamic, one of them convex, filters,
+/// exclusions. A trigger sees kinematic bodies too, but nothing static and no other trigger.
 bool mayTouch(const WorldData& data, uint32_t shapeA, uint32_t shapeB);
+/// The pair of a key, empty.
+PairData newPair(const WorldData& data, uint64_t key);
+/// Keeps what is needed to report the end of a touching pair that leaves the list.
+void loseTouch(WorldData& data, const PairData& pair);
+/// First entry of the pair in the list, or null.
+PairData* findPair(WorldData& data, uint64_t key);
 
 /// The pairs become void at once and leave the list with all others at the next step: closing the gaps one by one would
 /// move the whole list for each.

@@ -27,6 +27,17 @@ void add(Hash64& hash, const PointMemory& point) {
 
 void add(Hash64& hash, const PairData& pair) {
   hash.value(pair.key());
+  // What most pairs do not have.
+  if (pair.hasSurface) {
+    hash.value(pair.patch);
+    hash.value(pair.material);
+    hash.value(pair.element);
+  }
+  if (pair.isTrigger) hash.value(static_cast<uint8_t>(pair.wasTouching));
+  if (pair.torsionalFriction > 0 || pair.rollingFriction > 0) {
+    hash.value(pair.turn);
+    hash.value(pair.torque);
+  }
   hash.value(pair.normal);
   hash.value(pair.t1);
   hash.value(pair.t2);

@@ -77,19 +77,45 @@ struct PointMemory {
   uint8_t sticks = 0;     ///< it did not slip in the last step
 };
 
-/// Two shapes whose bounds overlap, with their contact points.
+/// Two shapes whose bounds overlap, with their contact points. A pair with a surface owns a run of these: one for each
+/// patch that it touched at most so far, numbered from 0; those that are not in use have no points.
 struct PairData {
   uint32_t shapeA = 0, shapeB = 0;  ///< slots, A < B
   uint32_t bodyA = 0, bodyB = 0;    ///< slots
+  uint32_t generation[4] = {};      ///< of the ids of shapeA, shapeB, bodyA, bodyB, which may be destroyed by now
+  uint16_t patch = 0;               ///< place in the run
+  uint16_t material = 0;            ///< of the surface: index in ShapeData.materials
+  uint32_t element = kNoElement;    ///< triangle of the surface
+  bool hasSurface = false;          ///< one of the shapes is a Mesh or HeightField
+  bool isTrigger = false;           ///< one of the shapes is: no points, only `touching`
+  bool triggerIsA = false;          ///< of a trigger: which of the two
+  bool reports = true;              ///< its begin and end are events
+  bool wantsHits = false;           ///< so are its hits
+  bool hasHook = false;             ///< the contact hook sees it
+  bool isFull = false;              ///< in this substep its rows are those of a FullContact
+  bool touching = false;            ///< carried force (trigger: overlapped) in this step; of a run in its first entry
+  bool wasTouching = false;         ///< the same in the last finished step
   Vec3d origin;                     ///< A's centre of mass at the start of the step
   Manifold manifold;                ///< positions relative to origin
   Vec3 normal, t1, t2;              ///< basis that the memories are given in
   PointMemory points[kMaxManifoldPoints];
   int32_t pointCount = 0;                                   ///< of `points`: those of the last step
   float staticFriction = 0, friction = 0, restitution = 0;  ///< combined
+  float torsionalFriction = 0, rollingFriction = 0;         ///< combined [m]
+  Vec3 turn;                   ///< of A against B since its turning sticks [rad]: about the normal, t1, t2
+  Vec3 torque;                 ///< against turning in the last step [N m], likewise
   uint8_t slides = 0;          ///< steps since any point stuck, saturating: from 2 on friction is dynamic
   bool landedSliding = false;  ///< friction is dynamic from the first step on, until a point sticks
   uint64_t key() const { return uint64_t(shapeA) << 32 | shapeB; }
+  ShapeId shapeId(int side) const { return {(side ? shapeB : shapeA) + 1, generation[side]}; }
+  BodyId bodyId(int side) const { return {(side ? bodyB : bodyA) + 1, generation[2 + side]}; }
+};
+
+/// A pair that touched when it left the list: its end is still to be reported, unless it is found again.
+struct LostTouch {
+  ShapeId shape[2];  ///< A, B
+  BodyId body[2];
+  bool isTrigger = false, triggerIsA = false, reports = true;
 };
 
 struct WorldData {
@@ -107,9 +133,11 @@ struct WorldData {
   std::vector<uint32_t> unpaired;
   /// Shapes whose pairs above are void (moved, refiltered, destroyed): World::step drops them first. Slots likewise.
   std::vector<uint32_t> forgotten;
+  bool treeBehind = false;  ///< bodies have moved since the tree was last fitted: a query fits it first
   double time = 0;
   StepReport report;
-  Events events;  ///< of the last step
+  Events events;                       ///< of the last step
+  std::vector<LostTouch> lostTouches;  ///< since the last step
   std::function<bool(ContactPlan&)> contactHook;
 };
 

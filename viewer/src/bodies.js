@@ -1,6 +1,7 @@
-// The bodies as instanced meshes: one draw call for boxes, one for spheres, two for capsules.
+// The bodies as instanced meshes: one draw call for all boxes, one for all spheres, one for each hull or mesh.
 import * as THREE from 'three';
-import {bevelled, striped} from './materials.js';
+import {bevelled, plain, striped} from './materials.js';
+import {Parts} from './shapes.js';
 
 const kPalette = [0x4e8fd0, 0xe8a04c, 0x53b08a, 0xd9695f, 0x8f7fd1, 0xe3c657, 0x58b4c4, 0xd389b4, 0x93ad5a, 0xb98e6d];
 
@@ -21,16 +22,6 @@ export function colorOf(recording, body, light) {
   return color.offsetHSL(0, 0, (((hash >>> 8) % 64) / 63 - 0.5) * 0.07);
 }
 
-/// What is drawn of one shape: which mesh, how it is scaled, and where it sits in the body.
-function parts(shape) {
-  const [x, y, z] = shape.size;
-  const at = (mesh, scale, offset, flip) => ({mesh, scale, offset, flip});
-  if (shape.kind === 'box') return [at('box', [x, y, z], 0, false)];
-  if (shape.kind === 'sphere') return [at('sphere', [x, x, x], 0, false)];
-  if (shape.kind !== 'capsule') return [];
-  return [at('tube', [x, y, x], 0, false), at('cap', [x, x, x], y, false), at('cap', [x, x, x], -y, true)];
-}
-
 const kFlip = new THREE.Quaternion(1, 0, 0, 0);
 
 function partPose(shape, part) {
@@ -45,17 +36,10 @@ function partPose(shape, part) {
 
 /// Round shapes get fewer triangles the more of them there are.
 const detailFor = (count) => (count < 150 ? 1 : count < 600 ? 0.7 : count < 1500 ? 0.5 : 0.4);
-const kGeometries = {
-  box: () => new THREE.BoxGeometry(2, 2, 2),
-  sphere: (detail) => new THREE.SphereGeometry(1, Math.round(36 * detail), Math.round(24 * detail)),
-  tube: (detail) => new THREE.CylinderGeometry(1, 1, 2, Math.round(32 * detail), 1, true),
-  // A little more than half, so that no gap shows between cap and tube.
-  cap: (detail) => new THREE.SphereGeometry(1, Math.round(32 * detail), Math.round(13 * detail), 0, 2 * Math.PI, 0,
-                                            0.54 * Math.PI),
-};
+const kSkins = {bevelled, striped, plain};
 
 class Instances {
-  constructor(kind, items, recording) {
+  constructor(name, items, recording) {
     // Those that move come first, so that only their part is sent to the GPU.
     items.sort((a, b) => (recording.tracks[a.body] < 0) - (recording.tracks[b.body] < 0));
     this.bodies = Uint32Array.from(items, (item) => item.body);
@@ -63,23 +47,28 @@ class Instances {
     this.scales = Float32Array.from(items.flatMap((item) => item.scale));
     this.poses = Float32Array.from(items.flatMap((item) => item.pose));
     this.plain = Uint8Array.from(items, ({pose}) => (pose.slice(0, 6).every((value) => value === 0) ? 1 : 0));
-    this.kind = kind;
-    const patch = kind === 'box' ? bevelled : striped;
-    this.materials = [patch(false), patch(true)];
+    const {make, skin, trigger} = items[0];
+    this.make = make;
+    this.skin = skin;
+    this.materials = [kSkins[skin](false), kSkins[skin](true)];
+    if (trigger) {
+      for (const material of this.materials) Object.assign(material, {transparent: true, opacity: 0.3, depthWrite: false});
+    }
     this.mesh = new THREE.InstancedMesh(undefined, this.materials[1], items.length);
     this.mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
     this.mesh.instanceColor = new THREE.InstancedBufferAttribute(new Float32Array(3 * items.length), 3);
-    this.mesh.castShadow = this.mesh.receiveShadow = true;
+    this.mesh.castShadow = this.mesh.receiveShadow = !trigger;
+    if (trigger) this.mesh.renderOrder = 5;
     this.mesh.frustumCulled = false;
-    this.mesh.name = kind;
+    this.mesh.name = name;
   }
 
   setDetail(detail) {
     if (this.detail === detail) return;
     this.detail = detail;
     this.mesh.geometry.dispose();
-    this.mesh.geometry = kGeometries[this.kind](detail);
-    if (this.kind !== 'box') return;
+    this.mesh.geometry = this.make(detail);
+    if (this.skin !== 'bevelled') return;
     this.mesh.geometry.setAttribute('halfSize', new THREE.InstancedBufferAttribute(this.scales, 3));
   }
 
@@ -130,14 +119,15 @@ export class Bodies {
     this.recording = recording;
     this.group = new THREE.Group();
     this.colors = [];
-    const items = new Map();
+    const items = new Map(), parts = new Parts(recording.surfaces);
     for (const shape of recording.shapes) {
-      for (const part of parts(shape)) {
-        if (!items.has(part.mesh)) items.set(part.mesh, []);
-        items.get(part.mesh).push({body: shape.body, scale: part.scale, pose: partPose(shape, part)});
+      for (const part of parts.of(shape)) {
+        const name = shape.trigger ? `${part.mesh} trigger` : part.mesh;
+        if (!items.has(name)) items.set(name, []);
+        items.get(name).push({...part, trigger: shape.trigger, body: shape.body, pose: partPose(shape, part)});
       }
     }
-    this.sets = [...items].map(([kind, list]) => new Instances(kind, list, recording));
+    this.sets = [...items].map(([name, list]) => new Instances(name, list, recording));
     for (const set of this.sets) this.group.add(set.mesh);
   }
 

@@ -1,14 +1,35 @@
 // How large bodies and the scene are.
 import * as THREE from 'three';
 
+function surfaceRadius({positions}, [x, y, z]) {
+  let most = 0;
+  for (let i = 0; i < positions.length; i += 3) {
+    most = Math.max(most, Math.hypot(positions[i] * x, positions[i + 1] * y, positions[i + 2] * z));
+  }
+  return most;
+}
+
+/// Radius about its origin that holds a shape; 0 for a half-space.
+function shapeRadius(shape, surfaces) {
+  const [x, y, z, rounding] = shape.size;
+  switch (shape.kind) {
+    case 'plane': return 0;
+    case 'sphere': return x;
+    case 'capsule': return x + y;
+    case 'box': return Math.hypot(x, y, z) + rounding;
+    case 'cylinder':
+    case 'cone': return Math.hypot(x, y) + rounding;
+    case 'ellipsoid': return Math.max(x, y, z);
+    default: return surfaces[shape.surface] ? surfaceRadius(surfaces[shape.surface], shape.size) + rounding : 0;
+  }
+}
+
 /// Radius about the body's origin that holds its shapes; 0 for a half-space.
 export function bodyRadii(recording) {
   const radii = new Float32Array(recording.bodyCount);
   for (const shape of recording.shapes) {
-    const [x, y, z] = shape.size;
-    const own = shape.kind === 'box' ? Math.hypot(x, y, z) : shape.kind === 'capsule' ? x + y : x;
-    if (shape.kind === 'plane') continue;
-    radii[shape.body] = Math.max(radii[shape.body], Math.hypot(...shape.position) + own);
+    const own = shapeRadius(shape, recording.surfaces);
+    if (own > 0) radii[shape.body] = Math.max(radii[shape.body], Math.hypot(...shape.position) + own);
   }
   return radii;
 }
@@ -22,6 +43,7 @@ export function sceneBox(recording, radii, turn) {
   if (bodies.length === 0) bodies = recording.names.map((_, i) => i).filter((body) => radii[body] > 0);
   const lows = [[], [], []], highs = [[], [], []], point = new THREE.Vector3();
   for (const frame of frames) {
+    if (!recording.has(frame)) continue;
     recording.poses(frame, poses, true);
     for (const body of bodies) {
       point.fromArray(poses, 7 * body).applyQuaternion(turn);

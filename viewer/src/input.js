@@ -2,7 +2,7 @@
 
 export function addKeys(viewer) {
   const {actions} = viewer;
-  const toggles = {c: 'contacts', v: 'forces', j: 'joints', n: 'names', t: 'theme', p: 'panel', l: 'loop', g: 'follow'};
+  const toggles = {c: 'contacts', v: 'forces', j: 'joints', n: 'names', t: 'theme', p: 'panel', l: 'loop', g: 'follow', e: 'tail'};
   const keys = {
     ' ': () => actions.togglePlay(),
     ArrowLeft: (event) => actions.step(event.shiftKey ? -10 : -1),

@@ -43,7 +43,7 @@ const counted = (count, noun) => `${count} ${noun}${count === 1 ? '' : 's'}`;
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 4];
 const kKeys = [
   ['Space', 'play or pause'], ['← →', 'one frame back or on; with Shift ten'], ['Home End', 'first or last frame'],
-  ['[ ]', 'slower, faster'], ['C', 'contact points'], ['V', 'force lines'], ['J', 'joints'], ['N', 'names'],
+  ['[ ]', 'slower, faster'], ['C', 'contact points'], ['V', 'force lines'], ['J', 'joints'], ['N', 'names'], ['E', 'stay at the end of a run that goes on'],
   ['F', 'look at the selected body'], ['G', 'follow it'], ['Esc', 'select nothing'], ['R', 'reset the view'],
   ['T', 'light or dark'], ['P', 'panel'], ['Left drag', 'orbit'], ['Right drag', 'pan'], ['Wheel', 'zoom'],
 ];
@@ -62,7 +62,7 @@ export class Interface {
     document.body.append(this.root);
   }
 
-  makeTitle() {
+  factsText() {
     const {recording} = this;
     const still = recording.types.reduce((sum, type) => sum + (type === 0), 0);
     const moving = recording.bodyCount - still;
@@ -70,8 +70,12 @@ export class Interface {
     const facts = [`${moving} moving`, `${still} static`];
     if (recording.joints.length > 0) facts.push(counted(recording.joints.length, 'joint'));
     facts.push(counted(recording.frameCount, 'frame'), `${Number(length.toFixed(2))} s`);
-    return make('header', {class: 'title'}, make('h1', {text: recording.title}),
-                make('p', {text: facts.join('  ·  ')}));
+    return facts.join('  ·  ');
+  }
+
+  makeTitle() {
+    this.titleFacts = make('p', {text: this.factsText()});
+    return make('header', {class: 'title'}, make('h1', {text: this.recording.title}), this.titleFacts);
   }
 
   makeToolbar() {
@@ -85,7 +89,8 @@ export class Interface {
       this.toggles[name] = button;
       bar.append(button);
     };
-    const touching = this.recording.contactsAll.some((count) => count > 0);
+    const touching = this.recording.live || this.recording.contactsAll.some((count) => count > 0);
+    if (this.recording.live) chip('tail', 'Live', 'E', true);
     chip('contacts', 'Contacts', 'C', touching);
     chip('forces', 'Forces', 'V', touching);
     chip('joints', 'Joints', 'J', this.recording.joints.length > 0);
@@ -174,6 +179,15 @@ export class Interface {
     this.quality.addEventListener('change', () => this.actions.setQuality(this.quality.value));
     this.rate = make('output', {class: 'rate'});
     return make('section', {class: 'foot'}, make('label', {}, make('span', {text: 'Picture'}), this.quality), this.rate);
+  }
+
+  /// A live recording has grown.
+  grow() {
+    const {times, frameCount} = this.recording;
+    this.scrub.min = times[0];
+    this.scrub.max = times[frameCount - 1];
+    this.titleFacts.textContent = this.factsText();
+    this.plots.forEach((plot, i) => plot.setData(times, this.recording[['energy', 'penetration', 'gap'][i]]));
   }
 
   showSelection(facts) {

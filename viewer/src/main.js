@@ -4,6 +4,7 @@ import {bodyRadii, sceneBox} from './bounds.js';
 import {Interface, make} from './interface.js';
 import {addKeys, addPointer} from './input.js';
 import {Labels} from './labels.js';
+import {openLive} from './live.js';
 import {Marks} from './marks.js';
 import {Motion} from './motion.js';
 import {pick} from './pick.js';
@@ -21,7 +22,7 @@ class Viewer {
     this.recording = recording;
     this.selected = this.hovered = -1;
     this.on = {contacts: false, forces: false, joints: false, names: false, panel: window.innerWidth > 760, loop: true,
-               follow: false, theme: window.matchMedia('(prefers-color-scheme: light)').matches};
+               follow: false, theme: window.matchMedia('(prefers-color-scheme: light)').matches, tail: recording.live === true};
     this.radii = bodyRadii(recording);
     this.motion = new Motion(recording);
     const actions = this.makeActions();
@@ -41,6 +42,7 @@ class Viewer {
     this.applyTheme();
     this.applyPanel();
     this.interface.press('loop', true);
+    this.interface.press('tail', this.on.tail);
     this.interface.showSelection(undefined);
     this.player.setQuality('auto');
     new ResizeObserver(() => this.resize()).observe(this.interface.picture);
@@ -52,7 +54,10 @@ class Viewer {
 
   makeActions() {
     return {
-      seek: (time) => this.player.seek(time),
+      seek: (time) => {
+        if (this.on.tail) this.set('tail', false);
+        this.player.seek(time);
+      },
       step: (count) => this.player.step(count),
       togglePlay: () => this.player.setPlaying(!this.player.playing),
       setSpeed: (speed) => { this.player.speed = speed; },
@@ -69,6 +74,7 @@ class Viewer {
     else if (name === 'panel') this.applyPanel();
     else if (name === 'names') this.labels.all = on;
     else if (name === 'follow') this.showSelection();
+    else if (name === 'tail') this.player.setTail(on);
     else if (name !== 'loop') this.marks.show(name, on);
     this.interface.press(name, on);
     this.player.touch(true);
@@ -166,7 +172,12 @@ class Viewer {
 function publish(viewer) {
   const {player, stage, recording} = viewer;
   window.avbdViewer = {
-    recording: {bodies: recording.bodyCount, frames: recording.frameCount, names: recording.names},
+    recording: {bodies: recording.bodyCount, get frames() { return recording.frameCount; }, names: recording.names},
+    get finished() { return recording.finished !== false; },
+    has: (frame) => recording.has(frame),
+    meshes: () => viewer.bodies.sets.map(({mesh, bodies}) => ({
+      name: mesh.name, count: bodies.length, triangles: (mesh.geometry.index ?? mesh.geometry.attributes.position).count / 3,
+      transparent: mesh.material.transparent})),
     get time() { return player.time; },
     get frame() { return viewer.motion.frame; },
     get playing() { return player.playing; },
@@ -197,17 +208,31 @@ function publish(viewer) {
   };
 }
 
-function start() {
+function fail(error) {
+  console.error(error);
+  const reason = `The recording cannot be shown: ${error.message}`;
+  document.body.replaceChildren(make('div', {class: 'failure'}, make('h1', {text: document.title}),
+                                     make('p', {text: reason}), make('p', {text: 'WebGL 2 is needed.'})));
+}
+
+async function start() {
   const sheet = document.createElement('style');
   sheet.textContent = style;
   document.head.append(sheet);
   try {
-    publish(new Viewer(new Recording(document)));
+    const head = JSON.parse(document.getElementById('avbd-head').textContent);
+    if (head.live) {
+      const recording = await openLive();
+      const viewer = new Viewer(recording);
+      recording.attach(viewer);
+      publish(viewer);
+      return;
+    }
+    const recording = new Recording(head);
+    recording.readFrames(document);
+    publish(new Viewer(recording));
   } catch (error) {
-    console.error(error);
-    const reason = `The recording cannot be shown: ${error.message}`;
-    document.body.replaceChildren(make('div', {class: 'failure'}, make('h1', {text: document.title}),
-                                       make('p', {text: reason}), make('p', {text: 'WebGL 2 is needed.'})));
+    fail(error);
   }
 }
 

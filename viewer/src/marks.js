@@ -11,6 +11,7 @@ function forceScale(recording, radius) {
   const sizes = [];
   const stride = Math.max(1, Math.floor(recording.frameCount / 24));
   for (let frame = 0; frame < recording.frameCount; frame += stride) {
+    if (!recording.has(frame)) continue;
     const {forces} = recording.contacts(frame);
     for (let i = 0; i < forces.length; i += 3) sizes.push(Math.hypot(forces[i], forces[i + 1], forces[i + 2]));
   }
@@ -59,7 +60,7 @@ export class Marks {
     const {positions, forces} = shown.contacts || shown.forces ? this.recording.contacts(frame) : none;
     this.contacts.set(positions, shown.contacts || shown.forces ? positions.length / 3 : 0);
     if (!shown.forces) return this.forces.set([], 0);
-    this.scale ??= forceScale(this.recording, this.radius);
+    this.scale ||= forceScale(this.recording, this.radius);
     const lines = new Float32Array(2 * positions.length);
     for (let i = 0, k = 0; i < positions.length; i += 3, k += 6) {
       const size = Math.hypot(forces[i], forces[i + 1], forces[i + 2]);
@@ -97,6 +98,7 @@ export class Marks {
     const stride = Math.max(1, Math.ceil(recording.frameCount / kPathPoints));
     const poses = new Float32Array(7 * recording.bodyCount), points = [];
     for (let frame = 0; frame < recording.frameCount; frame += stride) {
+      if (!recording.has(frame)) continue;
       recording.poses(frame, poses, false);
       points.push(poses.slice(7 * body, 7 * body + 3));
     }

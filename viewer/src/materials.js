@@ -52,6 +52,13 @@ export function striped(rich) {
           diffuseColor.rgb *= 0.91 + 0.09 * tone;`]]);
 }
 
+/// Hulls, meshes and terrain: seen from both sides, for a mirrored one is inside out.
+export function plain(rich) {
+  const material = surface(rich, 0.6);
+  material.side = THREE.DoubleSide;
+  return material;
+}
+
 /// Ground: lines every `cell` and, stronger, every ten, which thin out with distance.
 export function ground() {
   const material = new THREE.MeshLambertMaterial();

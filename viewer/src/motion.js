@@ -8,6 +8,7 @@ export class Motion {
     this.before = new Float32Array(size);
     this.after = new Float32Array(size);
     this.frames = [-1, -1];
+    this.frame = 0;
     recording.poses(0, this.now, true);
     this.before.set(this.now);
     this.after.set(this.now);
@@ -22,6 +23,8 @@ export class Motion {
       [this.before, this.after] = [this.after, this.before];
       this.frames = [frame, this.frames[0]];
     }
+    // What a live recording has not sent yet is asked for, and what was shown stays.
+    if (!recording.has(frame) || !recording.has(next)) return;
     if (this.frames[0] !== frame) recording.poses(frame, this.before, false);
     if (this.frames[1] !== next) recording.poses(next, this.after, false);
     this.frames = [frame, next];
@@ -51,6 +54,7 @@ export class Motion {
   /// Mean speed between the two frames around now.
   speed(body) {
     const {times} = this.recording;
+    if (this.frames[0] < 0) return 0;
     const step = times[this.frames[1]] - times[this.frames[0]];
     if (!(step > 0)) return this.lastSpeed(body);
     const k = 7 * body;
@@ -59,7 +63,7 @@ export class Motion {
 
   lastSpeed(body) {
     const {times, frameCount} = this.recording;
-    if (frameCount < 2) return 0;
+    if (frameCount < 2 || !this.recording.has(frameCount - 2)) return 0;
     this.scratch ??= new Float32Array(this.now.length);
     this.recording.poses(frameCount - 2, this.scratch, true);
     const k = 7 * body;

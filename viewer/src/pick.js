@@ -1,5 +1,8 @@
 // Which body a ray meets first.
 
+/// A surface of more corners of triangles than this is not searched while the mouse moves.
+const kMostCorners = 600000;
+
 /// v turned by the inverse of the quaternion at q[k..k+3], x y z w.
 function turnedBack(q, k, vx, vy, vz, out) {
   const x = -q[k], y = -q[k + 1], z = -q[k + 2], w = q[k + 3];
@@ -38,11 +41,69 @@ function meetCapsule(o, d, radius, half) {
   return best;
 }
 
-function meet(shape, o, d) {
-  const [x, y] = shape.size;
+/// A solid between y = -half and half whose radius runs from `low` to `high`: a cylinder or a cone.
+function meetTurned(o, d, low, high, half) {
+  let best = Infinity;
+  const slope = (high - low) / (2 * half), middle = (high + low) / 2;
+  const ro = middle + slope * o[1], rd = slope * d[1];
+  const a = d[0] * d[0] + d[2] * d[2] - rd * rd, b = o[0] * d[0] + o[2] * d[2] - ro * rd;
+  const c = o[0] * o[0] + o[2] * o[2] - ro * ro, root = b * b - a * c;
+  if (root >= 0 && Math.abs(a) > 1e-12) {
+    for (const sign of [-1, 1]) {
+      const along = (-b + sign * Math.sqrt(root)) / a;
+      if (along > 0 && Math.abs(o[1] + along * d[1]) <= half) best = Math.min(best, along);
+    }
+  }
+  for (const [y, radius] of [[-half, low], [half, high]]) {
+    const along = (y - o[1]) / d[1];
+    if (along > 0 && Math.hypot(o[0] + along * d[0], o[2] + along * d[2]) <= radius) best = Math.min(best, along);
+  }
+  return best;
+}
+
+/// Möller and Trumbore, "Fast, minimum storage ray-triangle intersection", 1997; from both sides.
+function meetTriangle(o, d, p, i, j, k) {
+  const ax = p[3 * i], ay = p[3 * i + 1], az = p[3 * i + 2];
+  const ux = p[3 * j] - ax, uy = p[3 * j + 1] - ay, uz = p[3 * j + 2] - az;
+  const vx = p[3 * k] - ax, vy = p[3 * k + 1] - ay, vz = p[3 * k + 2] - az;
+  const hx = d[1] * vz - d[2] * vy, hy = d[2] * vx - d[0] * vz, hz = d[0] * vy - d[1] * vx;
+  const det = ux * hx + uy * hy + uz * hz;
+  const sx = o[0] - ax, sy = o[1] - ay, sz = o[2] - az;
+  const u = (sx * hx + sy * hy + sz * hz) / det;
+  if (!(u >= 0 && u <= 1)) return Infinity;
+  const qx = sy * uz - sz * uy, qy = sz * ux - sx * uz, qz = sx * uy - sy * ux;
+  const v = (d[0] * qx + d[1] * qy + d[2] * qz) / det;
+  if (!(v >= 0 && u + v <= 1)) return Infinity;
+  return (vx * qx + vy * qy + vz * qz) / det;
+}
+
+function meetSurface(surface, o, d, [x, y, z]) {
+  if (!surface || surface.indices.length > kMostCorners) return Infinity;
+  const so = [o[0] / x, o[1] / y, o[2] / z], sd = [d[0] / x, d[1] / y, d[2] / z];
+  const {positions, indices} = surface;
+  let best = Infinity;
+  for (let i = 0; i < indices.length; i += 3) {
+    const along = meetTriangle(so, sd, positions, indices[i], indices[i + 1], indices[i + 2]);
+    if (along > 0 && along < best) best = along;
+  }
+  return best;
+}
+
+function meetEllipsoid(o, d, half) {
+  const so = o.map((value, i) => value / half[i]), sd = d.map((value, i) => value / half[i]);
+  const size = Math.hypot(...sd);
+  return meetSphere(so, sd.map((value) => value / size), 1, 0) / size;
+}
+
+function meet(shape, surfaces, o, d) {
+  const [x, y, z, r] = shape.size;
   if (shape.kind === 'sphere') return meetSphere(o, d, x, 0);
   if (shape.kind === 'capsule') return meetCapsule(o, d, x, y);
-  if (shape.kind === 'box') return meetBox(o, d, shape.size);
+  if (shape.kind === 'box') return meetBox(o, d, [x + r, y + r, z + r]);
+  if (shape.kind === 'cylinder') return meetTurned(o, d, x + r, x + r, y + r);
+  if (shape.kind === 'cone') return meetTurned(o, d, x + r, r, y + r);
+  if (shape.kind === 'ellipsoid') return meetEllipsoid(o, d, [x, y, z]);
+  if (shape.kind !== 'plane') return meetSurface(surfaces[shape.surface], o, d, shape.size);
   return d[1] < 0 ? -o[1] / d[1] : Infinity;
 }
 
@@ -52,6 +113,7 @@ export function pick(recording, poses, radii, ray) {
   const o = [0, 0, 0], d = [0, 0, 0], o2 = [0, 0, 0], d2 = [0, 0, 0];
   let best = Infinity, found = -1;
   for (const shape of recording.shapes) {
+    if (shape.trigger) continue;  // one wants what is in it
     const k = 7 * shape.body;
     const rx = origin.x - poses[k], ry = origin.y - poses[k + 1], rz = origin.z - poses[k + 2];
     if (shape.kind !== 'plane') {
@@ -63,7 +125,7 @@ export function pick(recording, poses, radii, ray) {
     const [px, py, pz] = shape.position;
     turnedBack(shape.rotation, 0, o[0] - px, o[1] - py, o[2] - pz, o2);
     turnedBack(shape.rotation, 0, d[0], d[1], d[2], d2);
-    const distance = meet(shape, o2, d2);
+    const distance = meet(shape, recording.surfaces, o2, d2);
     if (distance > 0 && distance < best) {
       best = distance;
       found = shape.kind === 'plane' ? -1 : shape.body;

@@ -30,6 +30,21 @@ export class Player {
     this.touch(true);
   }
 
+  /// Stays at the newest frame of a recording that grows.
+  setTail(on) {
+    if (!on) return;
+    this.setPlaying(false);
+    this.viewer.on.tail = true;
+    this.time = this.end;
+    this.touch(true);
+  }
+
+  /// A live recording has new frames, or frames that were waited for.
+  arrived() {
+    if (this.viewer.on.tail) this.time = this.end;
+    this.touch(true);
+  }
+
   step(count) {
     this.setPlaying(false);
     const {recording, motion} = this.viewer;
@@ -37,11 +52,13 @@ export class Player {
     // Between two frames a step leads to the nearer one in its direction.
     const from = count < 0 && part > 1e-6 ? frame + 1 : frame;
     const next = Math.min(recording.frameCount - 1, Math.max(0, from + count));
+    if (this.viewer.on.tail) this.viewer.set('tail', false);
     this.seek(recording.times[next]);
     return motion;
   }
 
   setPlaying(on) {
+    if (on && this.viewer.on.tail) this.viewer.set('tail', false);
     if (on && this.time >= this.end) this.time = this.first;
     this.playing = on && this.end > this.first;
     this.streak = 0;

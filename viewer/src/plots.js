@@ -48,10 +48,20 @@ export class Plot {
     box.addEventListener('pointermove', (event) => event.buttons & 1 && seek(event));
     this.left = 44;
     this.right = 8;
-    this.span = times[times.length - 1] - times[0] || 1;
-    const finite = values.filter(Number.isFinite);
+    this.measure();
+  }
+
+  measure() {
+    this.span = this.times[this.times.length - 1] - this.times[0] || 1;
+    const finite = this.values.filter(Number.isFinite);
     this.high = finite.reduce((a, b) => Math.max(a, b), 0);
     this.low = finite.reduce((a, b) => (b > 0 ? Math.min(a, b) : a), this.high);
+  }
+
+  setData(times, values) {
+    Object.assign(this, {times, values});
+    this.measure();
+    if (this.width > 0) this.draw();
   }
 
   resize() {

@@ -1,8 +1,10 @@
 // Reads what page.cpp wrote: the JSON head and the frames' bytes.
+import {gridSurface} from './shapes.js';
 
 const kPoseBytes = 15;
 const kContactBytes = 13;
-export const kKinds = ['sphere', 'capsule', 'box', 'plane'];
+export const kKinds =
+    ['sphere', 'capsule', 'box', 'plane', 'cylinder', 'cone', 'ellipsoid', 'hull', 'mesh', 'field'];
 export const kWorld = 0xffffffff;
 
 function bytesOf(base64) {
@@ -13,7 +15,7 @@ function bytesOf(base64) {
   return bytes;
 }
 
-const numbers = (Type, base64) => new Type(bytesOf(base64).buffer);
+export const numbers = (Type, base64) => new Type(bytesOf(base64).buffer);
 
 /// The three smaller components in 15 bits each; the largest is positive and makes the length one.
 function unpackRotation(low, high, out, at) {
@@ -31,8 +33,7 @@ function unpackRotation(low, high, out, at) {
 }
 
 export class Recording {
-  constructor(doc) {
-    const head = JSON.parse(doc.getElementById('avbd-head').textContent);
+  constructor(head) {
     this.title = head.title || 'AVBD';
     this.up = numbers(Float32Array, head.up);
     this.origin = numbers(Float64Array, head.origin);
@@ -43,6 +44,7 @@ export class Recording {
     this.still = numbers(Float32Array, head.still);
     this.ranges = numbers(Float64Array, head.ranges);
     this.contactRange = numbers(Float64Array, head.contactRange);
+    this.surfaces = head.surfaces.map((surface) => this.readSurface(surface));
     this.shapes = this.readShapes(head);
     this.joints = this.readJoints(head);
     for (const name of ['energy', 'penetration', 'gap']) this[name] = numbers(Float32Array, head[name]);
@@ -53,7 +55,6 @@ export class Recording {
     this.frameCount = this.times.length;
     this.moving = [];
     this.tracks.forEach((track, body) => track >= 0 && this.moving.push(body));
-    this.readFrames(doc);
   }
 
   readShapes(head) {
@@ -61,13 +62,27 @@ export class Recording {
     const kinds = numbers(Uint8Array, head.shapeKinds);
     const sizes = numbers(Float32Array, head.shapeSizes);
     const poses = numbers(Float32Array, head.shapePoses);
+    const surfaces = numbers(Int32Array, head.shapeSurfaces);
+    const triggers = numbers(Uint8Array, head.shapeTriggers);
     const clean = (value, otherwise) => (Number.isFinite(value) ? value : otherwise);
     return Array.from(bodies, (body, i) => {
       const pose = Array.from(poses.subarray(7 * i, 7 * i + 7), (value, k) => clean(value, k === 3 ? 1 : 0));
       const [x, y, z, qw, qx, qy, qz] = pose;
-      const size = Array.from(sizes.subarray(3 * i, 3 * i + 3), (value) => Math.max(0, clean(value, 0)));
-      return {body, kind: kKinds[kinds[i]], size, position: [x, y, z], rotation: [qx, qy, qz, qw]};
+      const surface = surfaces[i];
+      // Hulls and meshes have a scale, which may be negative.
+      const size = Array.from(sizes.subarray(4 * i, 4 * i + 4),
+                              (value) => (surface >= 0 ? clean(value, 1) : Math.max(0, clean(value, 0))));
+      return {body, kind: kKinds[kinds[i]], size, surface, trigger: triggers[i] === 1, position: [x, y, z],
+              rotation: [qx, qy, qz, qw]};
     });
+  }
+
+  readSurface(surface) {
+    if (surface.heights) {
+      return gridSurface({...surface, heights: numbers(Float32Array, surface.heights),
+                          open: numbers(Uint8Array, surface.open)});
+    }
+    return {positions: numbers(Float32Array, surface.vertices), indices: numbers(Uint32Array, surface.triangles)};
   }
 
   readJoints(head) {
@@ -97,6 +112,11 @@ export class Recording {
         offset += kPoseBytes * this.moving.length + kContactBytes * this.contactsKept[frame];
       }
     }
+  }
+
+  /// Whether poses and contacts of a frame are here.
+  has() {
+    return true;
   }
 
   /// Poses of a frame, 7 numbers a body: x y z qx qy qz qw about the origin. `stills` writes those that never move.

@@ -6,7 +6,7 @@
 // Bounds: normal force >= 0; the two tangent forces lie in a disc of radius mu times the normal force found just now.
 // Stiffness: k = max(floor, load / depth): the floor is 10 / (w h^2) with w the inverse mass that the row feels, and
 // the second part lets a loaded row hold its load at a bounded depth, whatever the masses. Left out: rolling and
-// torsional friction.
+// torsional friction (full_contact.h).
 #pragma once
 
 #include <avbd/rows/row.h>
@@ -31,16 +31,19 @@ struct Contact {
   R stiffest;        ///< [N/m] bound of the load's part: what it takes to move the whole island
   ContactPointRows<R> point[4];
 
+  /// Returns the sum of the normal forces [N].
   template <class Sink>
-  AVBD_INLINE void rows(const Twist<R>& dA, const Twist<R>& dB, Sink& sink) {
+  AVBD_INLINE R rows(const Twist<R>& dA, const Twist<R>& dB, Sink& sink) {
     sink.arms(armA, armB);
     const Twist<R> motion = relativeMotion(dA, dB, armA, armB);
-    for (int i = 0; i < 4; ++i) pointRows(point[i], motion, sink);
+    R load = zero<R>();
+    for (int i = 0; i < 4; ++i) load = load + pointRows(point[i], motion, sink);
+    return load;
   }
 
  private:
   template <class Sink>
-  AVBD_INLINE void pointRows(ContactPointRows<R>& p, const Twist<R>& motion, Sink& sink) {
+  AVBD_INLINE R pointRows(ContactPointRows<R>& p, const Twist<R>& motion, Sink& sink) {
     const R inf = splat<R>(kInfinity);
     const V3<R> u = motion.lin + cross(motion.ang, p.arm);
     const R one = splat<R>(1);
@@ -51,6 +54,7 @@ struct Contact {
     sink.emitCone(PairRow<R>{p.bias1 + dot(t1, u), t1, cross(p.arm, t1), kT, one, -inf, inf},
                   PairRow<R>{p.bias2 + dot(t2, u), t2, cross(p.arm, t2), kT, one, -inf, inf}, p.lambda1, p.lambda2,
                   p.mu * normal);
+    return normal;
   }
 };
 

@@ -5,6 +5,7 @@
 #include <avbd/rows/ball_joint.h>
 #include <avbd/rows/contact.h>
 #include <avbd/rows/fixed_joint.h>
+#include <avbd/rows/full_contact.h>
 #include <avbd/rows/tet_volume.h>
 
 namespace avbd::rows {
@@ -18,6 +19,7 @@ AVBD_INLINE void forEachPairFamily(Visitor&& f) {
   f(Family<Contact>{}, "contact");
   f(Family<BallJoint>{}, "ball_joint");
   f(Family<FixedJoint>{}, "fixed_joint");
+  f(Family<FullContact>{}, "full_contact");
 }
 
 template <class Visitor>

@@ -12,6 +12,13 @@ AVBD_INLINE R coneShare(const R& f1, const R& f2, const R& bound) {
   return select(size > bound, bound / select(size > bound, size, splat<R>(1)), splat<R>(1));
 }
 
+/// The same of one force alone.
+template <class R>
+AVBD_INLINE R boundedShare(const R& f, const R& bound) {
+  const R size = abs(f);
+  return select(size > bound, bound / select(size > bound, size, splat<R>(1)), splat<R>(1));
+}
+
 /// Primal: gathers the gradient J^T F as a wrench at the reference point and the Hessian J^T k J about it.
 template <class R>
 struct StampSink {
@@ -46,6 +53,13 @@ struct StampSink {
     add(r2, f2 * share, r2.k * share);
     return share;
   }
+  /// The same of one row: friction in one direction.
+  AVBD_INLINE R emitBounded(const PairRow<R>& row, R& lambda, const R& bound) {
+    const R f = lambda + row.k * row.C;
+    const R share = boundedShare(f, bound);
+    add(row, f * share, row.k * share);
+    return share;
+  }
 };
 
 /// Dual: the multiplier becomes the force, times `leak` (1: none).
@@ -63,6 +77,12 @@ struct DualSink {
     const R share = coneShare(f1, f2, bound);
     l1 = leak * f1 * share;
     l2 = leak * f2 * share;
+    return share;
+  }
+  AVBD_INLINE R emitBounded(const PairRow<R>& row, R& lambda, const R& bound) {
+    const R f = lambda + row.k * row.C;
+    const R share = boundedShare(f, bound);
+    lambda = leak * f * share;
     return share;
   }
 };
@@ -87,6 +107,10 @@ struct ProbeSink {
     emit(r1, l1);
     emit(r2, l2);
     return coneShare(l1 + r1.k * r1.C, l2 + r2.k * r2.C, bound);
+  }
+  AVBD_INLINE R emitBounded(const PairRow<R>& r, R& l, const R& bound) {
+    emit(r, l);
+    return boundedShare(l + r.k * r.C, bound);
   }
 };
 

@@ -1,0 +1,114 @@
+// `avbd info`: models, meshes, what it refuses.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/failure.h"
+#include "app/invoke.h"
+
+namespace avbd::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kRobot = R"(<mujoco model="robot"><option timestep="0.01" gravity="0 0 -5"/>
+  <asset><mesh name="tetra" vertex="0 0 0 2 0 0 0 1 0 0 0 3"/></asset><worldbody><geom type="plane" size="1 1 1"/>
+  <body name="a" pos="10 0 0"><freejoint/><geom size=".5" mass="2"/><geom type="box" size="1 2 3" mass="3"/>
+    <body pos="0 0 1"><joint type="ball"/><geom type="mesh" mesh="tetra" mass="1"/></body></body>
+  <body mocap="true" pos="0 0 -1"/></worldbody><actuator/><keyframe><key name="home"/></keyframe></mujoco>)";
+
+void expectRefused(const std::vector<std::string>& args, const std::vector<std::string>& words) {
+  const Invoked run = invoke(args);
+  EXPECT_EQ(run.status, kExitBadInput) << run.out;
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err.rfind("avbd: error: ", 0), 0u) << run.err;
+  for (const std::string& word : words) EXPECT_NE(run.err.find(word), std::string::npos) << word << ": " << run.err;
+}
+
+std::string tetra() { return "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"; }
+
+TEST(InfoCommand, AModel) {
+  const TestFolder folder;
+  const std::string file = folder.write("robot.xml", kRobot);
+  const Invoked text = invoke({"info", file});
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_EQ(text.err, "");
+  for (const char* part : {"robot", "2 dynamic, 1 kinematic, 1 static", "4: 1 sphere, 1 box, 1 half_space, 1 hull",
+                           "1: 1 ball", "6 kg", "0.01 s", "0, 0, -5", "home", "actuator: ignored"}) {
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << "\n" << text.out;
+  }
+  const Json json = Json::parse(invoke({"info", file, "--json"}).out);
+  EXPECT_EQ(json["model"], "robot");
+  EXPECT_EQ(json["dynamic"], 2);
+  EXPECT_EQ(json["shapes"]["hull"], 1);
+  EXPECT_EQ(json["hull_vertices"], 4);
+  EXPECT_EQ(json["joints"]["ball"], 1);
+  EXPECT_NEAR(json["mass"].get<double>(), 6, 1e-5);
+  // The box from x = 9, y = -2, z = -3; the hull up to x = 12 and z = 4.
+  const double lower[] = {9, -2, -3}, upper[] = {12, 2, 4};
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(json["lower"][i].get<double>(), lower[i], 1e-5);
+    EXPECT_NEAR(json["upper"][i].get<double>(), upper[i], 1e-5);
+  }
+  EXPECT_EQ(json["keyframes"], Json::array({"home"}));
+  EXPECT_FALSE(json["notes"].empty());
+}
+
+TEST(InfoCommand, AWorldOfNothingButAPlaneHasNoBounds) {
+  const TestFolder folder;
+  const std::string file =
+      folder.write("p.xml", "<mujoco><worldbody><geom type='plane' size='1 1 1'/></worldbody></mujoco>");
+  EXPECT_TRUE(Json::parse(invoke({"info", file, "--json"}).out)["lower"].is_null());
+  EXPECT_NE(invoke({"info", file}).out.find("none"), std::string::npos);
+}
+
+TEST(InfoCommand, Scenes) { EXPECT_EQ(Json::parse(invoke({"info", "chain", "--json"}).out)["notes"].size(), 0u); }
+
+TEST(InfoCommand, AMesh) {
+  const TestFolder folder;
+  const Json json = Json::parse(invoke({"info", folder.write("t.obj", tetra()), "--json"}).out);
+  EXPECT_EQ(json["vertices"], 4);
+  EXPECT_EQ(json["triangles"], 4);
+  EXPECT_EQ(json["closed"], true);
+  EXPECT_NEAR(json["volume"].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(json["area"].get<double>(), 1 + 3 + 1.5 + 3.5, 1e-5);
+  EXPECT_EQ(json["hull_vertices"], 4);
+  EXPECT_NEAR(json["hull_volume"].get<double>(), 1, 1e-5);
+  EXPECT_EQ(json["upper"], Json::array({2.0, 1.0, 3.0}));
+}
+
+TEST(InfoCommand, AMeshWithAHole) {
+  const TestFolder folder;
+  const std::string open = tetra().substr(0, tetra().size() - 8), file = folder.write("open.OBJ", open);
+  const Json json = Json::parse(invoke({"info", file, "--json"}).out);
+  EXPECT_EQ(json["closed"], false);
+  EXPECT_EQ(json["boundary_edges"], 3);
+  EXPECT_TRUE(json["volume"].is_null());
+  EXPECT_NE(invoke({"info", file}).out.find("3 edges of one triangle"), std::string::npos);
+}
+
+TEST(InfoCommand, AFlatMeshHasNoHull) {
+  const TestFolder folder;
+  const std::string file = folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\nf 2 4 3\n");
+  const Json json = Json::parse(invoke({"info", file, "--json"}).out);
+  EXPECT_TRUE(json["hull_vertices"].is_null());
+  EXPECT_NE(json["hull_refused"], "");
+  EXPECT_EQ(json["duplicate"], 1);
+}
+
+TEST(InfoCommand, Refuses) {
+  const TestFolder folder;
+  expectRefused({"info"}, {"file"});
+  expectRefused({"info", folder.file("none.xml")}, {"none.xml", "no such file"});
+  expectRefused({"info", folder.file("none.stl")}, {"none.stl", "no such file"});
+  expectRefused({"info", folder.write("bad.obj", "v 0 0 nan\n")}, {"bad.obj:1", "v.z", "nan"});
+  expectRefused({"info", folder.write("far.obj", "v 0 0 9e9\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}, {"far.obj"});
+  expectRefused({"info", folder.write("zero.obj", "v 0 0 0\nf 1 1 1\n")}, {"zero.obj"});
+  expectRefused({"info", folder.write("bad.xml", "<mujoco><body>")}, {"bad.xml:1"});
+  expectRefused({"info", folder.write("t.obj", tetra()), "--keyframe", "home"}, {"--keyframe", "home"});
+  expectRefused({"info", folder.write("m.xml", kRobot), "--floating"}, {"--floating"});
+  expectRefused({"info", "pyramid3"}, {"pyramid30"});
+}
+
+}  // namespace
+}  // namespace avbd::cli

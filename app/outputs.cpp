@@ -1,0 +1,113 @@
+// Page, CSV and recording of a run.
+#include "app/outputs.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/failure.h"
+#include "io/file_error.h"
+#include "viewer/page.h"
+
+namespace avbd::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPageFps = 60;
+constexpr double kPageFrames = 1200;
+constexpr double kPagePoses = 2.4e6;                          // of all bodies in all frames: about 48 MB of page
+constexpr size_t kRecordContacts = 2000;                      // of a frame: the strongest
+constexpr auto kFlushAfter = std::chrono::milliseconds(200);  // whoever reads along sees it this much later at most
+
+double pageFps(const Model& model, const Plan& plan) {
+  const double bodies = static_cast<double>(std::max<size_t>(1, model.bodies.size()));
+  const double frames = std::max(2.0, std::min(kPageFrames, kPagePoses / bodies));
+  const double time = static_cast<double>(plan.steps) * plan.dt;
+  return time > 0 ? std::min(kPageFps, frames / time) : kPageFps;
+}
+
+}  // namespace
+
+Outputs::Outputs(const RunArguments& a, const Model& model, const Plan& plan)
+    : csvSampler_(a.fps, plan.dt),
+      pageSampler_(pageFps(model, plan), plan.dt),
+      recordSampler_(a.fps, plan.dt),
+      ids_(model.bodies.size()) {
+  for (size_t i = 0; i < ids_.size(); ++i) ids_[i] = model.bodies[i].id;
+  poses_.resize(ids_.size());
+  if (!a.poses.empty()) csvFile_ = std::make_unique<OutputFile>("--poses", a.poses);
+  if (!a.html.empty()) pageFile_ = std::make_unique<OutputFile>("--html", a.html);
+  refuseSame(a);
+  if (csvFile_) csv_ = std::make_unique<PosesCsv>(csvFile_->stream(), model);
+  if (pageFile_) {
+    const double frames = pageFps(model, plan) * static_cast<double>(plan.steps) * plan.dt;
+    pageRecorder_ = std::make_unique<Recorder>(model, static_cast<size_t>(frames) + 2);
+    page_ = pageRecorder_->head();
+  }
+  if (a.record.empty()) return;
+  recorder_ = std::make_unique<Recorder>(model, 1, kRecordContacts);
+  try {
+    writer_ = std::make_unique<RecordWriter>(a.record, recorder_->head());
+  } catch (const FileError& e) {
+    throw BadInput(std::string("--record ") + e.what());
+  }
+  flushed_ = std::chrono::steady_clock::now();
+}
+
+void Outputs::look(const Model& model, int64_t step, const Plan& plan) {
+  const bool end = step == plan.steps;
+  if (recorder_ && step > 0) recorder_->watch(model.world);
+  const bool rows = csv_ && csvSampler_.due(step);
+  const bool onPage = pageRecorder_ && (pageSampler_.due(step) || end);  // the end belongs to page and recording
+  const bool inRecord = recorder_ && (recordSampler_.due(step) || end);
+  const double time = static_cast<double>(step) * plan.dt;
+  if (rows) {
+    model.world.getPoses(ids_, poses_);
+    csv_->write(time, poses_);
+  }
+  if (onPage) page_.frames.push_back(pageRecorder_->frame(model, time));
+  if (inRecord) record(recorder_->frame(model, time));
+}
+
+void Outputs::record(const RecordedFrame& frame) {
+  try {
+    writer_->add(frame);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - flushed_ < kFlushAfter) return;
+    writer_->flush();
+    flushed_ = now;
+  } catch (const FileError& e) {
+    throw BadInput(std::string("--record ") + e.what());
+  }
+}
+
+void Outputs::commit(const ReportLines& report) {
+  if (pageFile_) {
+    page_.report = report;
+    writePage(pageFile_->stream(), page_);
+  }
+  // Both or none.
+  for (const auto& file : {&csvFile_, &pageFile_})
+    if (*file) (*file)->finish();
+  try {
+    if (writer_) writer_->finish(report);
+  } catch (const FileError& e) {
+    throw BadInput(std::string("--record ") + e.what());
+  }
+  for (const auto& file : {&csvFile_, &pageFile_})
+    if (*file) (*file)->commit();
+}
+
+void Outputs::refuseSame(const RunArguments& a) const {
+  if (csvFile_ && pageFile_ && csvFile_->target() == pageFile_->target())
+    throw BadInput("--html and --poses are the same file " + a.html);
+  std::error_code none;
+  for (const std::string& file : {a.poses, a.html, a.record})
+    if (!file.empty() && fs::equivalent(file, a.scene, none)) throw BadInput(file + ": is the scene itself");
+  if (a.record.empty()) return;
+  const fs::path target = fs::weakly_canonical(a.record, none);
+  if ((csvFile_ && csvFile_->target() == target) || (pageFile_ && pageFile_->target() == target))
+    throw BadInput("--record is the same file as another output: " + a.record);
+}
+
+}  // namespace avbd::cli

@@ -1,0 +1,43 @@
+// The files that a run writes.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "app/arguments.h"
+#include "app/figures.h"
+#include "app/load.h"
+#include "app/output_file.h"
+#include "app/poses_csv.h"
+#include "app/recorder.h"
+#include "app/sampler.h"
+#include "io/record/writer.h"
+
+namespace avbd::cli {
+
+/// Opened before the first step, so that what cannot be written costs no run. Page and CSV appear when all is done; a
+/// recording grows under its name from the beginning.
+class Outputs {
+ public:
+  Outputs(const RunArguments& a, const Model& model, const Plan& plan);
+  /// To be called after every step, and before the first.
+  void look(const Model& model, int64_t step, const Plan& plan);
+  void commit(const ReportLines& report);
+
+ private:
+  void refuseSame(const RunArguments& a) const;
+  void record(const RecordedFrame& frame);
+
+  Sampler csvSampler_, pageSampler_, recordSampler_;
+  std::vector<BodyId> ids_;
+  std::vector<Pose> poses_;
+  std::unique_ptr<OutputFile> csvFile_, pageFile_;
+  std::unique_ptr<PosesCsv> csv_;
+  std::unique_ptr<Recorder> pageRecorder_, recorder_;
+  Recording page_;
+  std::unique_ptr<RecordWriter> writer_;
+  std::chrono::steady_clock::time_point flushed_;
+};
+
+}  // namespace avbd::cli

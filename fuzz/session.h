@@ -1,0 +1,101 @@
+// A world under fuzzing beside a record of what ought to be in it.
+#pragma once
+
+#include <avbd/avbd.h>
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "fuzz/bytes.h"
+#include "fuzz/check.h"
+
+namespace avbd::fuzz {
+
+inline bool isFinite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline bool isFinite(Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline bool isUnit(Vec3 v) { return std::fabs(length(v) - 1) < 1e-3f; }
+
+/// Decodes calls from bytes and makes them in a world that begins as one of a few scenes. After each: a refused call
+/// has changed nothing, what lives and what is dead is as recorded, every body, contact and reaction is finite, and
+/// events tell of what was not so before.
+class Session {
+ public:
+  Session(Bytes& in, int simdWidth);
+  /// Returns a hash over all states of the world on the way.
+  uint64_t run();
+
+ private:
+  using Pair = std::pair<ShapeId, ShapeId>;
+
+  template <class Call>
+  void attempt(Call&& call);
+  void act();
+  void check();
+
+  // session_scenes.cpp
+  void begin(uint32_t scene, int count);
+  void add(const BodyDef& def);
+  void pile(int count);
+  void chain(int count);
+  void hills(int count);
+  void machine(int count);
+
+  // session_make.cpp
+  void make();
+  void makeJoint();
+  BodyDef bodyDef();
+  ShapeDef shapeDef();
+  Geometry geometry();
+  Geometry convexGeometry();
+  Material material();
+  Filter filter();
+  BodyId anyBody();
+  ShapeId anyShape();
+
+  // session_change.cpp
+  void change();
+  void changeBody(BodyId body);
+  void changeShape(ShapeId shape);
+  void changeMany();
+  void push(BodyId body);
+  void remove();
+  void bodyGone(BodyId id);
+  void moveWorld();
+  void setHook();
+
+  // session_ask.cpp
+  void read();
+  void readJoints();
+  void ask();
+  void askRays(const QueryFilter& filter);
+  void askCasts(const QueryFilter& filter);
+  void askPlaces(const QueryFilter& filter);
+  void askMany(const QueryFilter& filter);
+  void walk();
+  QueryFilter queryFilter();
+  void checkHit(const CastHit& hit, double way, const QueryFilter& filter) const;
+  void checkNear(const NearHit& hit, float most, const QueryFilter& filter) const;
+  void checkSeen(ShapeId shape, BodyId body, const QueryFilter& filter) const;
+
+  // session_step.cpp
+  void step();
+  void checkEvents();
+  void checkTouches();
+  void checkVisits();
+  void checkContacts() const;
+  bool everLived(ShapeId id) const;
+
+  Bytes& in_;
+  World world_;
+  std::vector<BodyId> bodies_, deadBodies_;
+  std::vector<ShapeId> shapes_, deadShapes_;
+  std::vector<JointId> joints_, deadJoints_;
+  std::set<ShapeId> silent_;  // without contactEvents
+  std::set<Pair> touching_, visiting_;
+  std::optional<Mover> mover_;
+};
+
+}  // namespace avbd::fuzz

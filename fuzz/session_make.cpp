@@ -1,0 +1,174 @@
+// Bodies, shapes and joints out of bytes.
+#include "fuzz/session.h"
+#include "fuzz/session_attempt.h"
+#include "fuzz/surfaces.h"
+
+namespace avbd::fuzz {
+namespace {
+
+constexpr size_t kMostBodies = 24, kMostShapes = 64, kMostJoints = 32;
+
+}  // namespace
+
+Geometry Session::convexGeometry() {
+  switch (in_.below(10)) {
+    case 0:
+      return Sphere{in_.positive()};
+    case 1:
+      return Capsule{in_.positive(), in_.positive()};
+    case 2:
+      return Cylinder{in_.positive(), in_.positive(), in_.flag() ? 0 : in_.positive()};
+    case 3:
+      return Cone{in_.positive(), in_.positive(), in_.flag() ? 0 : in_.positive()};
+    case 4:
+      return Ellipsoid{in_.positive(), in_.positive(), in_.positive()};
+    case 5: {
+      const uint8_t which = in_.byte();
+      return Hull{which == 0    ? nullptr
+                  : which < 128 ? someHull()
+                                : roundHull(),
+                  in_.flag() ? Vec3{1, 1, 1} : in_.vector(), in_.flag() ? 0 : in_.number()};
+    }
+    case 6:
+      return Box{in_.positive(), in_.positive(), in_.positive(), in_.flag() ? 0 : in_.positive()};
+    case 7:
+      return Sphere{};
+    default:
+      return Box{0.5f, 0.5f, 0.5f};
+  }
+}
+
+Geometry Session::geometry() {
+  switch (in_.below(10)) {
+    case 0:
+      return HalfSpace{};
+    case 1: {
+      const uint8_t which = in_.byte();
+      return Mesh{which == 0    ? nullptr
+                  : which < 128 ? someMesh()
+                                : thinMesh(),
+                  in_.flag() ? Vec3{1, 1, 1} : in_.vector()};
+    }
+    case 2:
+      return HeightField{in_.byte() ? someField() : nullptr, in_.flag() ? Vec3{1, 1, 1} : in_.vector()};
+    default:
+      return convexGeometry();
+  }
+}
+
+Material Session::material() {
+  Material m;
+  if (in_.flag()) return m;
+  m.friction = in_.number();
+  m.staticFriction = in_.flag() ? -1 : in_.number();
+  m.restitution = in_.positive() / 8;
+  m.frictionCombine = static_cast<Combine>(in_.below(6));
+  m.torsionalFriction = in_.flag() ? 0 : in_.number();
+  m.rollingFriction = in_.flag() ? 0 : in_.number();
+  return m;
+}
+
+Filter Session::filter() {
+  if (in_.byte() < 200) return {};
+  return {in_.raw<uint32_t>(), in_.raw<uint32_t>(), static_cast<int32_t>(in_.below(4)) - 2, in_.flag()};
+}
+
+ShapeDef Session::shapeDef() {
+  ShapeDef def;
+  def.geometry = geometry();
+  if (in_.flag()) def.pose = in_.pose();
+  def.density = in_.byte() < 220 ? 1000 : in_.number();
+  def.material = material();
+  if (in_.byte() > 200) def.materials = {material(), material()};
+  def.filter = filter();
+  const uint8_t flags = in_.byte();
+  def.isTrigger = flags > 220;
+  def.hitEvents = flags & 1;
+  def.contactHook = flags & 2;
+  def.contactEvents = (flags & 12) != 0;
+  return def;
+}
+
+BodyDef Session::bodyDef() {
+  BodyDef def;
+  const uint8_t kind = in_.byte();
+  def.type = kind < 60    ? BodyType::Static
+             : kind < 90  ? BodyType::Kinematic
+             : kind < 254 ? BodyType::Dynamic
+                          : static_cast<BodyType>(7);
+  def.position = in_.position();
+  def.rotation = in_.rotation();
+  if (in_.flag() && def.type != BodyType::Static) {
+    def.linearVelocity = in_.vector();
+    def.angularVelocity = in_.vector();
+  }
+  if (in_.byte() < 230) def.shape = geometry();
+  def.material = material();
+  def.filter = filter();
+  if (in_.byte() > 200) def.shapes.push_back(shapeDef());
+  if (in_.byte() > 220) def.mass = in_.number();
+  if (in_.byte() > 230)
+    def.massProperties =
+        MassProperties{in_.number(), in_.vector(), {in_.number(), in_.number(), in_.number(), 0, 0, 0}};
+  if (in_.byte() > 220) def.locks = in_.byte();
+  if (in_.byte() > 220) def.linearDamping = in_.number();
+  if (in_.byte() > 220) def.angularDamping = in_.number();
+  if (in_.byte() > 220) def.gravityScale = in_.number();
+  return def;
+}
+
+BodyId Session::anyBody() {
+  const uint8_t pick = in_.byte();
+  if (pick > 245) return {};
+  if (pick > 235 && !deadBodies_.empty()) return deadBodies_[pick % deadBodies_.size()];
+  return bodies_.empty() ? BodyId{} : bodies_[pick % bodies_.size()];
+}
+
+ShapeId Session::anyShape() {
+  const uint8_t pick = in_.byte();
+  if (pick > 235 && !deadShapes_.empty()) return deadShapes_[pick % deadShapes_.size()];
+  return shapes_.empty() ? ShapeId{} : shapes_[pick % shapes_.size()];
+}
+
+void Session::make() {
+  const bool shapeOnly = in_.byte() > 180;
+  attempt([&] {
+    if (shapeOnly) {
+      const BodyId body = anyBody();
+      const ShapeDef def = shapeDef();
+      if (shapes_.size() >= kMostShapes) return;
+      shapes_.push_back(world_.create(body, def));
+      if (!def.contactEvents) silent_.insert(shapes_.back());
+    } else {
+      const BodyDef def = bodyDef();
+      if (bodies_.size() >= kMostBodies) return;
+      add(def);
+      if (!def.shapes.empty() && !def.shapes[0].contactEvents) silent_.insert(shapes_.back());
+    }
+  });
+}
+
+void Session::makeJoint() {
+  attempt([&] {
+    const BodyId a = anyBody(), b = anyBody();
+    const bool collide = in_.flag();
+    if (joints_.size() >= kMostJoints) return;
+    switch (in_.below(4)) {
+      case 0:
+        joints_.push_back(world_.create(BallJoint{a, b, in_.pose(), in_.pose(), collide, 0}));
+        return;
+      case 1:
+        joints_.push_back(world_.create(FixedJoint{a, b, in_.pose(), in_.pose(), collide, 0}));
+        return;
+      case 2:  // where they are: strains nothing
+        if (!a || !b) return;
+        joints_.push_back(world_.create(FixedJoint{a, b, {}, inverse(world_.pose(b)) * world_.pose(a), collide, 0}));
+        return;
+      default:
+        joints_.push_back(world_.create(
+            TetVolume{{a, b, anyBody(), anyBody()}, in_.flag() ? 0 : in_.number(), in_.flag() ? 0 : in_.number(), 0}));
+    }
+  });
+}
+
+}  // namespace avbd::fuzz

@@ -1,0 +1,107 @@
+// Steps, and what they say happened.
+#include <algorithm>
+
+#include "fuzz/session.h"
+
+namespace avbd::fuzz {
+
+void Session::step() {
+  const float dt = in_.byte() < 245 ? 1.0f / 60 : in_.number();
+  const uint64_t hash = world_.hash();
+  std::vector<Pose> before(bodies_.size()), after(bodies_.size());
+  std::vector<Velocity> speedBefore(bodies_.size()), speedAfter(bodies_.size());
+  world_.getPoses(bodies_, before);
+  world_.getVelocities(bodies_, speedBefore);
+  try {
+    world_.step(dt);
+    checkEvents();
+  } catch (const Error& error) {
+    const float shortest = 1e-7f * static_cast<float>(world_.definition().substeps);
+    require(!(dt >= shortest && dt <= 1) || error.definition() == "ContactPlan", "a good step refused");
+    require(world_.hash() == hash, "a refused step changed the world");
+  } catch (const NonFiniteError& error) {
+    require(!error.stage().empty(), "a step that failed without a stage");
+    world_.getPoses(bodies_, after);
+    world_.getVelocities(bodies_, speedAfter);
+    require(before == after && speedBefore == speedAfter, "a failed step moved something");
+  }
+}
+
+bool Session::everLived(ShapeId id) const {
+  return world_.isAlive(id) || std::find(deadShapes_.begin(), deadShapes_.end(), id) != deadShapes_.end();
+}
+
+void Session::checkEvents() {
+  checkTouches();
+  checkVisits();
+  const Events& events = world_.events();
+  for (const HitEvent& hit : events.hits) {
+    require(world_.isAlive(hit.shapeA) && world_.isAlive(hit.shapeB), "a hit of a dead shape");
+    require(isUnit(hit.normal) && isFinite(hit.position), "a hit nowhere");
+    require(std::isfinite(hit.speed) && hit.speed >= world_.definition().hitSpeed, "a hit below the threshold");
+    require(std::isfinite(hit.impulse) && hit.impulse > 0, "a hit without impulse");
+  }
+  require(events.moves.empty() || world_.definition().moveEvents, "moves that nobody asked for");
+  for (const MoveEvent& move : events.moves) {
+    require(world_.isAlive(move.body), "a dead body moved");
+    require(move.pose == world_.pose(move.body), "a body moved elsewhere");
+  }
+}
+
+/// Begins and ends alternate for each pair, and what carries force has begun.
+void Session::checkTouches() {
+  const Events& events = world_.events();
+  for (const TouchEvent& e : events.ends) {
+    require(everLived(e.shapeA) && everLived(e.shapeB), "an end of a shape that never was");
+    require(touching_.erase({e.shapeA, e.shapeB}) == 1, "an end without a begin");
+  }
+  for (const TouchEvent& e : events.begins) {
+    require(world_.isAlive(e.shapeA) && world_.isAlive(e.shapeB), "a begin of a dead shape");
+    require(world_.body(e.shapeA) == e.bodyA && world_.body(e.shapeB) == e.bodyB, "a begin of other bodies");
+    require(!silent_.count(e.shapeA) && !silent_.count(e.shapeB), "a begin that nobody asked for");
+    require(touching_.insert({e.shapeA, e.shapeB}).second, "a second begin");
+  }
+  for (const Pair& pair : touching_)
+    require(world_.isAlive(pair.first) && world_.isAlive(pair.second), "a dead shape still touches");
+  for (const Contact& contact : world_.contacts()) {
+    bool carries = false;
+    for (int i = 0; i < contact.pointCount; ++i)
+      carries = carries || contact.points[static_cast<size_t>(i)].normalForce > 0;
+    if (!carries || silent_.count(contact.shapeA) || silent_.count(contact.shapeB)) continue;
+    require(touching_.count({contact.shapeA, contact.shapeB}) == 1, "a contact that never began");
+  }
+}
+
+void Session::checkVisits() {
+  const Events& events = world_.events();
+  for (const TriggerEvent& e : events.leaves) {
+    require(everLived(e.trigger) && everLived(e.visitor), "a leave of a shape that never was");
+    require(visiting_.erase({e.trigger, e.visitor}) == 1, "a leave without an enter");
+  }
+  for (const TriggerEvent& e : events.enters) {
+    require(world_.isAlive(e.trigger) && world_.isAlive(e.visitor), "an enter of a dead shape");
+    require(world_.isTrigger(e.trigger), "an enter into what is no trigger");
+    require(visiting_.insert({e.trigger, e.visitor}).second, "a second enter");
+  }
+  for (const Pair& pair : visiting_)
+    require(world_.isAlive(pair.first) && world_.isAlive(pair.second), "a dead shape still visits");
+}
+
+void Session::checkContacts() const {
+  for (const Contact& contact : world_.contacts()) {
+    require(world_.isAlive(contact.shapeA) && world_.isAlive(contact.shapeB), "a contact of a dead shape");
+    require(world_.body(contact.shapeA) == contact.bodyA && world_.body(contact.shapeB) == contact.bodyB,
+            "a contact of other bodies");
+    require(!world_.isTrigger(contact.shapeA) && !world_.isTrigger(contact.shapeB), "a contact of a trigger");
+    require(isUnit(contact.normal), "a contact normal that is not unit");
+    require(contact.pointCount >= 1 && contact.pointCount <= 4, "a contact without points");
+    for (int i = 0; i < contact.pointCount; ++i) {
+      const ContactPoint& p = contact.points[static_cast<size_t>(i)];
+      require(isFinite(p.position) && std::isfinite(p.separation), "a contact point that is not finite");
+      require(isFinite(p.frictionForce) && std::isfinite(p.normalForce), "a contact force that is not finite");
+      require(p.normalForce >= 0, "a contact that pulls");
+    }
+  }
+}
+
+}  // namespace avbd::fuzz

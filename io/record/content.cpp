@@ -1,0 +1,150 @@
+// Meta, bodies, joints and the index.
+#include "io/record/content.h"
+
+#include <cmath>
+
+#include "io/file_error.h"
+#include "io/record/chunk.h"
+
+namespace avbd::record {
+namespace {
+
+enum MetaField : uint16_t { kTitle = 1, kEngine = 2, kUp = 3, kDt = 4, kLabels = 10, kValues = 12 };
+enum BodyField : uint16_t { kNames = 1, kTypes = 3 };
+enum JointField : uint16_t { kBodyA = 1, kBodyB = 2, kAnchorA = 3, kAnchorB = 4 };
+enum IndexField : uint16_t { kOffsets = 1, kChunkTypes = 2, kFirsts = 3, kCounts = 4, kTimes = 5 };
+
+std::vector<double> numbersOf(Vec3d v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+Bytes metaContent(const Recording& r) {
+  FieldWriter out;
+  out.text(kTitle, r.title);
+  out.text(kEngine, r.engine);
+  out.list(kUp, std::vector<float>{r.up.x, r.up.y, r.up.z});
+  out.value(kDt, r.dt);
+  std::vector<std::string> labels, values;
+  for (const auto& [label, value] : r.report) {
+    labels.push_back(label);
+    values.push_back(value);
+  }
+  out.texts(kLabels, labels);
+  out.texts(kValues, values);
+  return out.bytes();
+}
+
+Bytes bodiesContent(const Recording& r) {
+  FieldWriter out;
+  std::vector<std::string> names;
+  std::vector<uint8_t> types;
+  for (const RecordedBody& body : r.bodies) {
+    names.push_back(body.name);
+    types.push_back(static_cast<uint8_t>(body.type));
+  }
+  out.texts(kNames, names);
+  out.list(kTypes, types);
+  return out.bytes();
+}
+
+Bytes jointsContent(const Recording& r) {
+  FieldWriter out;
+  std::vector<uint32_t> a, b;
+  std::vector<double> anchorA, anchorB;
+  for (const RecordedJoint& joint : r.joints) {
+    a.push_back(joint.bodyA);
+    b.push_back(joint.bodyB);
+    for (const double v : numbersOf(joint.anchorA)) anchorA.push_back(v);
+    for (const double v : numbersOf(joint.anchorB)) anchorB.push_back(v);
+  }
+  out.list(kBodyA, a);
+  out.list(kBodyB, b);
+  out.list(kAnchorA, anchorA, Encoding::Shuffled);
+  out.list(kAnchorB, anchorB, Encoding::Shuffled);
+  return out.bytes();
+}
+
+bool HeadReader::take(uint32_t type, const FieldReader& fields) {
+  if (type == kMeta)
+    takeMeta(fields);
+  else if (type == kBodies)
+    takeBodies(fields);
+  else if (type == kSurfaces)
+    takeSurface(fields);
+  else if (type == kShapes)
+    takeShapes(fields);
+  else if (type == kJoints)
+    takeJoints(fields);
+  else
+    return false;
+  return true;
+}
+
+// A later one replaces what it says anew.
+void HeadReader::takeMeta(const FieldReader& f) {
+  if (f.has(kTitle)) recording.title = f.text(kTitle);
+  if (f.has(kEngine)) recording.engine = f.text(kEngine);
+  recording.dt = f.value(kDt, recording.dt);
+  if (f.has(kUp)) {
+    const std::vector<float> up = f.listOf<float>(kUp, 3);
+    const Vec3 v{up[0], up[1], up[2]};
+    if (!(length(v) > 0) || !std::isfinite(length(v))) f.refuse(kUp, "is no direction");
+    recording.up = v;
+  }
+  const std::vector<std::string> labels = f.texts(kLabels), values = f.texts(kValues);
+  if (labels.size() != values.size()) f.refuse(kLabels, "does not fit the values");
+  if (labels.empty()) return;
+  recording.report.clear();
+  for (size_t i = 0; i < labels.size(); ++i) recording.report.emplace_back(labels[i], values[i]);
+}
+
+void HeadReader::takeBodies(const FieldReader& f) {
+  const std::vector<std::string> names = f.texts(kNames);
+  const std::vector<uint8_t> types = f.listOf<uint8_t>(kTypes, names.size());
+  for (size_t i = 0; i < names.size(); ++i) {
+    const uint8_t type = types.empty() ? static_cast<uint8_t>(BodyType::Dynamic) : types[i];
+    if (type > static_cast<uint8_t>(BodyType::Dynamic)) f.refuse(kTypes, "names a type of body that there is not");
+    recording.bodies.push_back({names[i], static_cast<BodyType>(type)});
+  }
+}
+
+void HeadReader::takeJoints(const FieldReader& f) {
+  const std::vector<uint32_t> a = f.list<uint32_t>(kBodyA), b = f.listOf<uint32_t>(kBodyB, a.size());
+  const std::vector<double> anchorA = f.listOf<double>(kAnchorA, 3 * a.size()),
+                            anchorB = f.listOf<double>(kAnchorB, 3 * a.size());
+  if (!a.empty() && (b.empty() || anchorA.empty() || anchorB.empty())) f.refuse(kBodyA, "stands alone");
+  const auto fits = [&](uint32_t body) { return body == kNotRecorded || body < recording.bodies.size(); };
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (!fits(a[i]) || !fits(b[i])) f.refuse(kBodyA, "names a body that there is not");
+    const double *p = &anchorA[3 * i], *q = &anchorB[3 * i];
+    recording.joints.push_back({a[i], b[i], {p[0], p[1], p[2]}, {q[0], q[1], q[2]}});
+  }
+}
+
+Bytes indexContent(const Index& index) {
+  FieldWriter out;
+  out.list(kOffsets, index.offsets, Encoding::Line, 1);
+  out.list(kChunkTypes, index.types, Encoding::Delta, 1);
+  out.list(kFirsts, index.firsts, Encoding::Line, 1);
+  out.list(kCounts, index.counts, Encoding::Delta, 1);
+  out.list(kTimes, index.times, Encoding::Line, 1);
+  return out.bytes();
+}
+
+Index indexOf(const FieldReader& f) {
+  Index index;
+  index.offsets = f.list<uint64_t>(kOffsets);
+  const size_t count = index.offsets.size();
+  index.types = f.listOf<uint32_t>(kChunkTypes, count);
+  index.firsts = f.listOf<uint64_t>(kFirsts, count);
+  index.counts = f.listOf<uint32_t>(kCounts, count);
+  index.times = f.list<double>(kTimes);
+  if (index.types.size() != count || index.firsts.size() != count || index.counts.size() != count)
+    f.refuse(kOffsets, "stands alone");
+  uint64_t frames = 0;
+  for (size_t i = 0; i < count; ++i) frames += index.counts[i];
+  if (frames != index.times.size()) f.refuse(kTimes, "does not fit the number of frames");
+  return index;
+}
+
+}  // namespace avbd::record

@@ -1,0 +1,73 @@
+// What stands in a recording, in lines for a person.
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+
+#include "io/record/chunk.h"
+#include "io/record/reader.h"
+
+namespace avbd {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string bodiesText(const Recording& head) {
+  std::array<size_t, 3> counts{};
+  for (const RecordedBody& body : head.bodies) ++counts[static_cast<size_t>(body.type)];
+  return std::to_string(counts[2]) + " dynamic, " + std::to_string(counts[1]) + " kinematic, " +
+         std::to_string(counts[0]) + " static";
+}
+
+std::string shapesText(const Recording& head) {
+  constexpr const char* kNames[] = {"sphere", "capsule",   "box",  "half-space", "cylinder",
+                                    "cone",   "ellipsoid", "hull", "mesh",       "height field"};
+  std::array<size_t, std::size(kNames)> counts{};
+  size_t triggers = 0;
+  for (const RecordedShape& shape : head.shapes) {
+    ++counts[shape.geometry.index()];
+    triggers += shape.trigger;
+  }
+  std::string text;
+  for (size_t i = 0; i < counts.size(); ++i)
+    if (counts[i] > 0) text += (text.empty() ? "" : ", ") + std::to_string(counts[i]) + " " + kNames[i];
+  if (triggers > 0) text += "; " + std::to_string(triggers) + " of them triggers";
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> describeRecording(const std::filesystem::path& path) {
+  RecordReader reader(path);
+  const RecordingInfo& info = reader.info();
+  const Recording& head = reader.head();
+  std::vector<std::pair<std::string, std::string>> lines{
+      {"recording", head.title},
+      {"written by", head.engine.empty() ? "not said" : head.engine},
+      {"version", std::to_string(info.versionMajor) + "." + std::to_string(info.versionMinor)},
+      {"size", number(static_cast<double>(info.bytes) * 1e-6) + " MB in " + std::to_string(info.chunks) + " chunks"},
+      {"bodies", bodiesText(head)},
+      {"shapes", shapesText(head)},
+      {"joints", std::to_string(head.joints.size())},
+      {"frames", std::to_string(info.frames) + ", " + number(info.firstTime) + " s to " + number(info.lastTime) + " s"},
+      {"finished", info.finished ? "yes" : "no"},
+  };
+  if (head.dt > 0) lines.emplace_back("step", number(head.dt) + " s");
+  lines.insert(lines.end(), head.report.begin(), head.report.end());
+  for (const std::string& note : info.notes) lines.emplace_back("note", note);
+  for (const std::string& damage : reader.verify()) lines.emplace_back("damage", damage);
+  return lines;
+}
+
+bool isRecording(const std::filesystem::path& path) {
+  char head[sizeof record::kMagic] = {};
+  std::ifstream in(path, std::ios::binary);
+  in.read(head, sizeof head);
+  return in.gcount() == sizeof head && std::memcmp(head, record::kMagic, sizeof head) == 0;
+}
+
+}  // namespace avbd

@@ -1,0 +1,54 @@
+// Parts of the stage 20_contacts.
+#pragma once
+
+#include "step/step_data.h"
+
+namespace avbd {
+
+NearPose nearPose(const BodyData& body, const ShapeData& shape, Vec3d origin);
+/// Smaller half thickness of two bodies; a body without bounded shapes does not count.
+float smallerSize(const BodyData& a, const BodyData& b);
+/// Distance within which contacts are looked for: what the bodies may close in this step, but never a large part of
+/// the smaller one's size.
+float speculativeMargin(const WorldData& world, const BodyData& a, const BodyData& b, float h);
+
+// Memory (contact_memory.cpp).
+inline constexpr float kSameNormal = 0.9f;  ///< cosine: a normal that turned farther keeps no multipliers
+/// Of the smaller half thickness: the nearest old point still counts as this one.
+inline constexpr float kNearPoint = 0.1f;
+
+/// A point in the body's axes, relative to its centre of mass.
+inline Vec3 toBody(const BodyData& body, Vec3 fromCenter) { return rotate(conjugate(body.rotation), fromCenter); }
+
+/// What a new point continues; null: nothing.
+struct KnownPoint {
+  const PointMemory* memory = nullptr;
+  const ContactBasis* basis = nullptr;
+};
+/// The manifold is new: turns the basis and carries over what the points remember, `known` one by one.
+void rememberPoints(const WorldData& world, PairData& pair, const KnownPoint* known);
+/// The same for a pair of convex shapes: finds the points that continue.
+void rememberPoints(const WorldData& world, PairData& pair);
+/// A contact that begins: whether it does so as a slide. `belt`: at what velocity B's surface shall slide over A's.
+void beginSlide(const WorldData& world, const StepData& step, PairData& pair, Vec3 belt);
+void forgetContact(PairData& pair);
+
+/// Friction, restitution ... of a pair from the materials of its shapes (contact_materials.cpp).
+void combineMaterials(PairData& pair, const Material& a, const Material& b);
+
+/// Patches of the pairs world.pairs[begin .. end), one run, which has a surface; those for which the run is too short
+/// go to step.overflow (contact_surface.cpp).
+void findPatches(WorldData& world, StepData& step, size_t begin, size_t end);
+/// Puts step.overflow into the list, behind the runs that they belong to.
+void lengthenRuns(WorldData& world, StepData& step);
+
+/// Whether a trigger and its visitor overlap (contact_trigger.cpp).
+bool overlaps(const WorldData& world, StepData& step, const PairData& pair);
+
+/// Lets the user's hook see and change contacts; throws Error for what it may not say (contact_hook.cpp).
+void askHook(WorldData& world, StepData& step);
+/// For askHook: to undo a step that it stops.
+void rememberPairs(const WorldData& world, StepData& step);
+void restorePairs(WorldData& world, StepData& step);
+
+}  // namespace avbd

@@ -1,0 +1,118 @@
+// Frames of a recording as floats about one origin.
+#include "viewer/live_feed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "viewer/page.h"
+
+namespace avbd::live {
+namespace {
+
+using record::Bytes;
+using record::put;
+
+/// Frames looked at in one update, so that a long recording does not keep the others waiting.
+constexpr uint64_t kMostNew = 500;
+
+void putVector(Bytes& out, Vec3 v) {
+  for (const float x : {v.x, v.y, v.z}) put(out, std::isfinite(x) ? x : 0.0f);
+}
+
+template <class T>
+void putPart(Bytes& out, const std::vector<T>& list, size_t first) {
+  for (size_t i = first; i < list.size(); ++i) put(out, list[i]);
+}
+
+Message messageOf(Bytes&& bytes) { return std::make_shared<const Bytes>(std::move(bytes)); }
+
+}  // namespace
+
+bool Feed::update() {
+  reader_.refresh();
+  if (reader_.frameCount() < known()) {
+    head_ = nullptr;
+    for (auto* list : {&energy_, &penetration_, &gap_}) list->clear();
+    contactsAll_.clear();
+    contactsKept_.clear();
+    return false;
+  }
+  const uint64_t end = std::min<uint64_t>(reader_.frameCount(), known() + kMostNew);
+  for (uint64_t i = known(); i < end; ++i) {
+    RecordedFrame f;
+    try {
+      f = reader_.frame(i);
+    } catch (const FileError&) {
+      f.kineticEnergy = NAN;  // its place in the plots stays empty
+    }
+    const auto count = static_cast<uint32_t>(f.contacts.size());
+    energy_.push_back(static_cast<float>(f.kineticEnergy));
+    penetration_.push_back(static_cast<float>(f.penetrationMax));
+    gap_.push_back(static_cast<float>(f.jointGapMax));
+    contactsAll_.push_back(count + f.contactsLeftOut);
+    contactsKept_.push_back(count);
+  }
+  return true;
+}
+
+Message Feed::head() {
+  if (head_ || known() == 0) return head_;
+  Recording first = reader_.head();
+  try {
+    first.frames = {reader_.frame(0)};
+  } catch (const FileError&) {
+    RecordedFrame none;
+    none.poses.resize(first.bodies.size());
+    first.frames = {none};
+  }
+  const page::LiveHead live = page::liveHead(first);
+  origin_ = live.origin;
+  Bytes bytes;
+  put(bytes, static_cast<uint32_t>(MessageKind::Head));
+  bytes.insert(bytes.end(), live.json.begin(), live.json.end());
+  head_ = messageOf(std::move(bytes));
+  return head_;
+}
+
+Message Feed::figures(uint32_t first) const {
+  Bytes bytes;
+  put(bytes, static_cast<uint32_t>(MessageKind::Figures));
+  put(bytes, first);
+  put(bytes, known() - first);
+  put(bytes, static_cast<uint32_t>(finished()));
+  for (uint32_t i = first; i < known(); ++i) put(bytes, reader_.times()[i]);
+  putPart(bytes, energy_, first);
+  putPart(bytes, penetration_, first);
+  putPart(bytes, gap_, first);
+  putPart(bytes, contactsAll_, first);
+  putPart(bytes, contactsKept_, first);
+  return messageOf(std::move(bytes));
+}
+
+Message Feed::frame(uint32_t number) {
+  RecordedFrame f;
+  try {
+    f = reader_.frame(number);
+  } catch (const FileError&) {
+  }
+  Bytes bytes;
+  bytes.reserve(16 + 28 * f.poses.size() + 24 * f.contacts.size());
+  put(bytes, static_cast<uint32_t>(MessageKind::Frame));
+  put(bytes, number);
+  put(bytes, static_cast<uint32_t>(f.poses.size()));
+  put(bytes, static_cast<uint32_t>(f.contacts.size()));
+  for (const Pose& pose : f.poses) {
+    putVector(bytes, toFloat(pose.position - origin_));
+    const Quat q = pose.rotation;
+    const float size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    const bool sound = size > 1e-6f && std::isfinite(size);
+    putVector(bytes, sound ? Vec3{q.x / size, q.y / size, q.z / size} : Vec3{});
+    put(bytes, sound ? q.w / size : 1.0f);
+  }
+  for (const RecordedContact& c : f.contacts) putVector(bytes, toFloat(c.position - origin_));
+  for (const RecordedContact& c : f.contacts) putVector(bytes, c.force);
+  return messageOf(std::move(bytes));
+}
+
+}  // namespace avbd::live

@@ -1,0 +1,45 @@
+// What a live page is sent: its head, the figures of frames as they come, and frames on demand, as messages of bytes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "io/record/reader.h"
+
+namespace avbd::live {
+
+using Message = std::shared_ptr<const std::vector<uint8_t>>;
+
+/// The first four bytes of a message. All numbers little endian, 4 bytes where nothing else is said.
+enum class MessageKind : uint32_t {
+  Head = 1,     ///< JSON, from byte 4 on
+  Figures = 2,  ///< first frame, count, finished; 8-byte times; float energies, penetrations, gaps; contacts, kept
+  Frame = 3,    ///< frame, bodies, contacts; floats: 7 for each body, 3 for each contact's place, 3 for its force
+};
+
+class Feed {
+ public:
+  explicit Feed(const std::filesystem::path& recording) : reader_(recording) {}
+
+  /// Reads on. False if the file was begun anew, and all that was sent is void.
+  bool update();
+  /// Frames whose figures are known.
+  uint32_t known() const { return static_cast<uint32_t>(energy_.size()); }
+  bool finished() const { return reader_.info().finished && known() == reader_.frameCount(); }
+  /// Null while there is no frame.
+  Message head();
+  Message figures(uint32_t first) const;
+  /// A frame that cannot be read has no bodies.
+  Message frame(uint32_t number);
+
+ private:
+  RecordReader reader_;
+  Message head_;
+  Vec3d origin_;
+  std::vector<float> energy_, penetration_, gap_;
+  std::vector<uint32_t> contactsAll_, contactsKept_;
+};
+
+}  // namespace avbd::live
