@@ -63,6 +63,9 @@ Layout layoutOf(const World& world) {
   for (const JointId id : world.joints()) {
     if (world.type(id) == JointType::Ball) addJoint(layout, world.ballJoint(id), slots);
     if (world.type(id) == JointType::Fixed) addJoint(layout, world.fixedJoint(id), slots);
+    if (world.type(id) == JointType::Hinge) addJoint(layout, world.hingeJoint(id), slots);
+    if (world.type(id) == JointType::Slider) addJoint(layout, world.sliderJoint(id), slots);
+    if (world.type(id) == JointType::D6) addJoint(layout, world.d6Joint(id), slots);
   }
   return layout;
 }

@@ -61,6 +61,9 @@ class World {
   JointId create(const BallJoint& def);
   JointId create(const FixedJoint& def);
   JointId create(const TetVolume& def);
+  JointId create(const HingeJoint& def);
+  JointId create(const SliderJoint& def);
+  JointId create(const D6Joint& def);
   void destroy(BodyId id);   ///< with its shapes and its joints
   void destroy(ShapeId id);  ///< as create; a dynamic body that loses its last mass keeps what it had
   void destroy(JointId id);
@@ -145,10 +148,24 @@ class World {
   BallJoint ballJoint(JointId id) const;    ///< the definition; Error if it is a joint of another type
   FixedJoint fixedJoint(JointId id) const;  ///< as above
   TetVolume tetVolume(JointId id) const;    ///< as above; restVolume is the one in use
+  HingeJoint hingeJoint(JointId id) const;    ///< as above
+  SliderJoint sliderJoint(JointId id) const;  ///< as above
+  D6Joint d6Joint(JointId id) const;          ///< as above
+  /// One coordinate of a hinge, slider or D6 joint; else Error.
+  JointCoordinate coordinate(JointId id, JointAxis axis) const;
+  /// The coordinate that a hinge or slider leaves free.
+  JointCoordinate coordinate(JointId id) const;
+  /// Of a free coordinate of a D6 joint; without axis that of a hinge or slider. Takes effect in the next step.
+  void setLimit(JointId id, JointAxis axis, const JointLimit& limit);
+  void setLimit(JointId id, const JointLimit& limit);
+  void setDrive(JointId id, JointAxis axis, const JointDrive& drive);
+  void setDrive(JointId id, const JointDrive& drive);
   JointReaction reaction(JointId id) const;
-  /// Distance between the anchors [m] (BallJoint, FixedJoint); |C| [m^3] of a TetVolume.
+  /// How far the joint is from holding [m]: the distance of the frames' origins, of a slider or D6 joint along its locked
+  /// axes only; |C| [m^3] of a TetVolume.
   double gap(JointId id) const;
-  double angleError(JointId id) const;  ///< [rad] of a FixedJoint; else 0
+  /// [rad] between the frames about locked axes; 0 of a BallJoint and a TetVolume.
+  double angleError(JointId id) const;
   uint64_t userData(JointId id) const;
   void setUserData(JointId id, uint64_t data);
 

@@ -41,6 +41,9 @@ void RecordSource::addJoints(const World& world) {
   for (const JointId id : world.joints()) {
     if (world.type(id) == JointType::Ball) add(world.ballJoint(id));
     if (world.type(id) == JointType::Fixed) add(world.fixedJoint(id));
+    if (world.type(id) == JointType::Hinge) add(world.hingeJoint(id));
+    if (world.type(id) == JointType::Slider) add(world.sliderJoint(id));
+    if (world.type(id) == JointType::D6) add(world.d6Joint(id));
   }
 }
 

@@ -118,6 +118,9 @@ class Drawing {
     };
     if (world_.type(id) == JointType::Ball) return anchors(world_.ballJoint(id));
     if (world_.type(id) == JointType::Fixed) return anchors(world_.fixedJoint(id));
+    if (world_.type(id) == JointType::Hinge) return anchors(world_.hingeJoint(id));
+    if (world_.type(id) == JointType::Slider) return anchors(world_.sliderJoint(id));
+    if (world_.type(id) == JointType::D6) return anchors(world_.d6Joint(id));
     const TetVolume volume = world_.tetVolume(id);
     for (size_t i = 0; i < 4; ++i)
       for (size_t k = i + 1; k < 4; ++k)
@@ -149,6 +152,9 @@ class Drawing {
     for (const JointId id : world_.joints()) {
       if (world_.type(id) == JointType::Ball) unite(world_.ballJoint(id).bodyA, world_.ballJoint(id).bodyB);
       if (world_.type(id) == JointType::Fixed) unite(world_.fixedJoint(id).bodyA, world_.fixedJoint(id).bodyB);
+      if (world_.type(id) == JointType::Hinge) unite(world_.hingeJoint(id).bodyA, world_.hingeJoint(id).bodyB);
+      if (world_.type(id) == JointType::Slider) unite(world_.sliderJoint(id).bodyA, world_.sliderJoint(id).bodyB);
+      if (world_.type(id) == JointType::D6) unite(world_.d6Joint(id).bodyA, world_.d6Joint(id).bodyB);
       if (world_.type(id) != JointType::TetVolume) continue;
       for (const BodyId body : world_.tetVolume(id).bodies) unite(world_.tetVolume(id).bodies[0], body);
     }

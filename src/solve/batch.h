@@ -53,6 +53,17 @@ struct TetTiles {
   uint32_t tiles = 0;
 };
 
+struct ScalarJoint;
+
+/// Joints whose rows are evaluated one at a time (scalar_joint.h), with their lanes in the products with H.
+struct ScalarJoints {
+  ScalarJoint* joint = nullptr;
+  uint32_t count = 0;
+  const uint32_t* a = nullptr;  ///< body rows by lane, padded to whole tiles
+  const uint32_t* b = nullptr;
+  uint32_t tiles = 0;
+};
+
 /// One island within a batch.
 struct IslandRange {
   uint32_t begin = 0, end = 0;  ///< body rows
@@ -83,7 +94,8 @@ struct BatchView {
   PairTiles<rows::FixedJoint> fixed;
   PairTiles<rows::FullContact> full;
   TetTiles tets;
-  Tile<PairOp>* op = nullptr;  ///< contacts, then balls, then fixed
+  ScalarJoints scalar;
+  Tile<PairOp>* op = nullptr;  ///< contacts, then balls, then fixed, then scalar joints
   Tile<ScaledOp>* fullOp = nullptr;
 
   const uint32_t* locked = nullptr;  ///< rows of bodies with locked axes

@@ -337,6 +337,8 @@ void multiply(const BatchView& v) {
   multiplyPairs(v, v.balls.a, v.balls.b, op, v.balls.tiles);
   op += v.balls.tiles;
   multiplyPairs(v, v.fixed.a, v.fixed.b, op, v.fixed.tiles);
+  op += v.fixed.tiles;
+  multiplyPairs(v, v.scalar.a, v.scalar.b, op, v.scalar.tiles);
   multiplyFull(v);
   multiplyTets(v);
 }

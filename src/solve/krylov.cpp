@@ -7,6 +7,7 @@
 #include "solve/krylov.h"
 
 #include "solve/locks.h"
+#include "solve/scalar_joint.h"
 
 namespace avbd {
 
@@ -143,6 +144,7 @@ void solveKrylov(const BatchView& view, const Backend& backend, const SolveSetti
   for (int i = 0; i < settings.iterations; ++i) {
     backend.beginIteration(view);
     backend.stampRows(view, settings, i > 0);
+    stampScalar(view, settings.jointLeak, i > 0, scratch.unsolved.data());
     if (forest) forest->stamp(view, scratch.unsolved.data());
     if (view.lockedCount) applyLocks(view);
     backend.factor(view);

@@ -64,6 +64,7 @@ class SweepPlan {
   void build(const BatchView& view, const Colors& colors);
   SweepView view();
   const std::vector<SweepColor>& colors() const { return colors_; }
+  uint32_t placeOf(uint32_t row) const { return place_[row]; }  ///< of a body in its colour
   /// `view` with the locked bodies of one colour, named by their places.
   BatchView lockedIn(const BatchView& view, const SweepColor& color) const;
 

@@ -2,7 +2,9 @@
 #include "solve/tree.h"
 
 #include "avbd/rows/sinks.h"
+#include "solve/body_rows.h"
 #include "solve/geometric.h"
+#include "solve/scalar_joint.h"
 
 namespace avbd {
 
@@ -11,34 +13,10 @@ using rows::V3;
 
 namespace {
 
-Twist<float> readTwist(const float* array, uint32_t row) {
-  const float* p = array + 8 * row;
-  return {{p[0], p[1], p[2]}, {p[4], p[5], p[6]}};
-}
-
-void addTwist(float* array, uint32_t row, const Twist<float>& t) {
-  float* p = array + 8 * row;
-  p[0] += t.lin.x, p[1] += t.lin.y, p[2] += t.lin.z;
-  p[4] += t.ang.x, p[5] += t.ang.y, p[6] += t.ang.z;
-}
-
-/// Order of a Sym6's 21 floats in a hessian row: linear 6, angular-linear 9, angular 6.
-constexpr int kAngular = 15;
-
-void addAngular(const BatchView& v, uint32_t row, const rows::Sym3<float>& g) {
-  float* h = v.hessian + kHessianRow * row + kAngular;
-  float* d = v.diagonal + 8 * row + 1;
-  const float value[6] = {g.xx, g.yy, g.zz, g.xy, g.xz, g.yz};
-  for (int i = 0; i < 6; ++i) {
-    h[i] += value[i];
-    d[i] += value[i];
-  }
-}
-
 void readBlock(const float* row, float (&h)[6][6]) {
   const float* l = row;
   const float* al = row + 6;
-  const float* a = row + kAngular;
+  const float* a = row + kAngularBlock;
   h[0][0] = l[0], h[1][1] = l[1], h[2][2] = l[2], h[1][0] = l[3], h[2][0] = l[4], h[2][1] = l[5];
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) h[3 + i][j] = al[3 * i + j];
@@ -69,8 +47,8 @@ void solveLdl(const float (&a)[kMax][kMax], int n, float* x) {
 }
 
 /// The same for kColumns right-hand sides side by side.
-template <int kColumns>
-void solveLdlColumns(const float (&a)[6][6], float (&x)[6][8]) {
+template <int kColumns, int kStride>
+void solveLdlColumns(const float (&a)[6][6], float (&x)[6][kStride]) {
   for (int i = 1; i < 6; ++i)
     for (int j = 0; j < i; ++j)
       for (int c = 0; c < kColumns; ++c) x[i][c] -= a[i][j] * x[j][c];
@@ -85,6 +63,16 @@ void fillJacobian(float (&j)[6], const rows::PairRow<float>& row, const V3<float
   const V3<float> ang = cross(arm, row.lin) + row.ang;
   j[0] = sign * row.lin.x, j[1] = sign * row.lin.y, j[2] = sign * row.lin.z;
   j[3] = sign * ang.x, j[4] = sign * ang.y, j[5] = sign * ang.z;
+}
+
+/// Force and geometric stiffness of a joint.
+void addJointForce(const BatchView& v, const TreeJoint& joint, const Twist<float>& wrench, const V3<float>& armA,
+                   const V3<float>& armB) {
+  const Twist<float> onA = shiftWrench(wrench, armA), onB = shiftWrench(wrench, armB);
+  addTwist(v.gradient, joint.rowA, onA);
+  addTwist(v.gradient, joint.rowB, {-onB.lin, -onB.ang});
+  addAngular(v, joint.rowA, geometricStiffness(-wrench.lin, armA));
+  addAngular(v, joint.rowB, geometricStiffness(wrench.lin, armB));
 }
 
 void stampJoint(const BatchView& v, TreeJoint& joint) {
@@ -105,81 +93,128 @@ void stampJoint(const BatchView& v, TreeJoint& joint) {
     fillJacobian(joint.childIsA ? joint.jc[i] : joint.jp[i], row, probe.armA, 1);
     fillJacobian(joint.childIsA ? joint.jp[i] : joint.jc[i], row, probe.armB, -1);
   }
-  const Twist<float> onA = shiftWrench(wrench, probe.armA), onB = shiftWrench(wrench, probe.armB);
-  addTwist(v.gradient, joint.rowA, onA);
-  addTwist(v.gradient, joint.rowB, {-onB.lin, -onB.ang});
-  addAngular(v, joint.rowA, geometricStiffness(-wrench.lin, probe.armA));
-  addAngular(v, joint.rowB, geometricStiffness(wrench.lin, probe.armB));
+  addJointForce(v, joint, wrench, probe.armA, probe.armB);
 }
 
-void maskLocked(TreeJoint& joint, const BatchView& v) {
+/// The rows that a scalar joint has in this iteration.
+void stampMixed(const BatchView& v, const TreeJoint& joint, MixedRows& mixed) {
+  ScalarJoint& scalar = v.scalar.joint[mixed.scalar];
+  const ScalarRows list = rowsOf(scalar, v);
+  Twist<float> wrench{};
+  mixed.m = 0;
+  for (int i = 0; i < list.count; ++i) {
+    const rows::PairRow<float>& row = list.row[i];
+    const RowForce force = forceOf(row, *list.lambda[i], true);
+    wrench.lin += row.lin * force.force;
+    wrench.ang += row.ang * force.force;
+    if (force.kind == RowKind::None) continue;
+    const bool exact = force.kind == RowKind::Exact;
+    const int at = mixed.m++;
+    mixed.violation[at] = exact ? row.C : 0;
+    mixed.compliance[at] = exact ? 0 : 1 / force.k;
+    mixed.lambda[at] = exact ? list.lambda[i] : nullptr;
+    mixed.total[at] = 0;
+    fillJacobian(joint.childIsA ? mixed.jc[at] : mixed.jp[at], row, list.armA, 1);
+    fillJacobian(joint.childIsA ? mixed.jp[at] : mixed.jc[at], row, list.armB, -1);
+  }
+  addJointForce(v, joint, wrench, list.armA, list.armB);
+}
+
+template <class Rows>
+void maskLocked(const TreeJoint& joint, Rows& rows, const BatchView& v) {
   for (uint32_t i = 0; i < v.lockedCount; ++i) {
     const uint32_t row = v.locked[i];
     if (row != joint.rowA && row != joint.rowB) continue;
-    auto& j = (row == joint.rowA) == joint.childIsA ? joint.jc : joint.jp;
+    auto& j = (row == joint.rowA) == joint.childIsA ? rows.jc : rows.jp;
     for (int axis = 0; axis < 6; ++axis)
       if (v.locks[i] >> axis & 1)
-        for (int k = 0; k < joint.m; ++k) j[k][axis] = 0;
+        for (int k = 0; k < rows.m; ++k) j[k][axis] = 0;
   }
 }
 
+/// 1/k that S gets on its diagonal.
+float complianceOf(const TreeRows<6>&, int) { return 0; }
+float complianceOf(const MixedRows& rows, int i) { return rows.compliance[i]; }
+
+/// How many rows there are: known to the compiler where all joints of a kind have as many.
+template <int kFixed>
+int countOf(int m) {
+  return kFixed > 0 ? kFixed : m;
+}
+
 /// Eliminates the node: its block is complete. Adds what it leaves to the parent.
-template <int kRows>
-void eliminate(TreeNode& node, TreeJoint& joint, TreeNode* parent) {
-  constexpr int kColumns = kRows <= 4 ? 4 : 8;
+template <int kFixed, class Rows>
+void eliminate(TreeNode& node, Rows& rows, TreeNode* parent) {
+  constexpr int kColumns = kFixed > 0 ? (kFixed + 3) / 4 * 4 : Rows::kColumns;
+  const int m = countOf<kFixed>(rows.m);
   for (int k = 0; k < 6; ++k)
-    for (int i = 0; i < kColumns; ++i) joint.u[k][i] = i < kRows ? joint.jc[i][k] : 0.0f;
-  solveLdlColumns<kColumns>(node.h, joint.u);
-  for (int i = 0; i < kRows; ++i) {
+    for (int i = 0; i < kColumns; ++i) rows.u[k][i] = i < m ? rows.jc[i][k] : 0.0f;
+  solveLdlColumns<kColumns>(node.h, rows.u);
+  for (int i = 0; i < m; ++i) {
     float sum[kColumns] = {};
     for (int k = 0; k < 6; ++k)
-      for (int j = 0; j < kColumns; ++j) sum[j] += joint.jc[i][k] * joint.u[k][j];
-    for (int j = 0; j <= i; ++j) joint.sFactor[i][j] = sum[j];
+      for (int j = 0; j < kColumns; ++j) sum[j] += rows.jc[i][k] * rows.u[k][j];
+    for (int j = 0; j <= i; ++j) rows.sFactor[i][j] = sum[j];
+    rows.sFactor[i][i] += complianceOf(rows, i);
   }
-  factorLdl(joint.sFactor, kRows);
+  factorLdl(rows.sFactor, m);
   if (!parent) return;
   for (int k = 0; k < 6; ++k) {
-    float column[kRows];
-    for (int i = 0; i < kRows; ++i) column[i] = joint.jp[i][k];
-    solveLdl(joint.sFactor, kRows, column);
-    for (int i = 0; i < kRows; ++i) joint.w[i][k] = column[i];
+    float column[Rows::kRows];
+    for (int i = 0; i < m; ++i) column[i] = rows.jp[i][k];
+    solveLdl(rows.sFactor, m, column);
+    for (int i = 0; i < m; ++i) rows.w[i][k] = column[i];
   }
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j <= i; ++j) {
       float sum = 0;
-      for (int k = 0; k < kRows; ++k) sum += joint.jp[k][i] * joint.w[k][j];
+      for (int k = 0; k < m; ++k) sum += rows.jp[k][i] * rows.w[k][j];
       parent->h[i][j] += sum;
     }
 }
 
 /// Leaf to root for one node: y of the parent -= Jp^T S^-1 (Jc Hc^-1 y - b); mu keeps S^-1 (...).
-template <int kRows>
-void descend(const TreeNode& node, TreeJoint& joint, TreeNode* parent, bool violated) {
-  float t[kRows];
-  for (int i = 0; i < kRows; ++i) t[i] = violated ? joint.violation[i] : 0.0f;
+template <int kFixed, class Rows>
+void descend(const TreeNode& node, Rows& rows, TreeNode* parent, bool violated) {
+  const int m = countOf<kFixed>(rows.m);
+  float t[Rows::kRows];
+  for (int i = 0; i < m; ++i) t[i] = violated ? rows.violation[i] : 0.0f;
   for (int k = 0; k < 6; ++k)
-    for (int i = 0; i < kRows; ++i) t[i] += joint.u[k][i] * node.y[k];
-  solveLdl(joint.sFactor, kRows, t);
-  for (int i = 0; i < kRows; ++i) joint.mu[i] = t[i];
+    for (int i = 0; i < m; ++i) t[i] += rows.u[k][i] * node.y[k];
+  solveLdl(rows.sFactor, m, t);
+  for (int i = 0; i < m; ++i) rows.mu[i] = t[i];
   if (!parent) return;
   for (int k = 0; k < 6; ++k) {
     float sum = 0;
-    for (int i = 0; i < kRows; ++i) sum += joint.jp[i][k] * t[i];
+    for (int i = 0; i < m; ++i) sum += rows.jp[i][k] * t[i];
     parent->y[k] -= sum;
   }
 }
 
-template <int kRows>
-void ascend(const TreeNode& node, TreeJoint& joint, const float* parentZ, float* z) {
-  for (int i = 0; i < kRows; ++i) {
+template <int kFixed, class Rows>
+void ascend(const TreeNode& node, Rows& rows, const float* parentZ, float* z) {
+  const int m = countOf<kFixed>(rows.m);
+  for (int i = 0; i < m; ++i) {
     if (parentZ)
-      for (int k = 0; k < 6; ++k) joint.mu[i] += joint.w[i][k] * parentZ[k];
-    joint.total[i] += joint.mu[i];
+      for (int k = 0; k < 6; ++k) rows.mu[i] += rows.w[i][k] * parentZ[k];
+    rows.total[i] += rows.mu[i];
   }
   for (int k = 0; k < 6; ++k) z[k] = node.y[k];
   solveLdl(node.h, 6, z);
   for (int k = 0; k < 6; ++k)
-    for (int i = 0; i < kRows; ++i) z[k] -= joint.u[k][i] * joint.mu[i];
+    for (int i = 0; i < m; ++i) z[k] -= rows.u[k][i] * rows.mu[i];
+}
+
+/// Calls f.operator()<rows known to the compiler, or 0>(rows of the joint).
+template <class F>
+void withRows(Forest& forest, TreeJoint& joint, F&& f) {
+  if (joint.mixed >= 0) {
+    f.template operator()<0>(forest.mixed[static_cast<size_t>(joint.mixed)]);
+  } else if (joint.angular) {
+    f.template operator()<6>(static_cast<TreeRows<6>&>(joint));
+  } else {
+    f.template operator()<3>(static_cast<TreeRows<6>&>(joint));
+  }
 }
 
 }  // namespace
@@ -187,8 +222,12 @@ void ascend(const TreeNode& node, TreeJoint& joint, const float* parentZ, float*
 void Forest::stamp(const BatchView& view, const uint8_t* active) {
   for (TreeJoint& joint : joints) {
     if (!active[joint.island]) continue;
-    stampJoint(view, joint);
-    if (view.lockedCount) maskLocked(joint, view);
+    if (joint.mixed >= 0) {
+      stampMixed(view, joint, mixed[static_cast<size_t>(joint.mixed)]);
+    } else {
+      stampJoint(view, joint);
+    }
+    if (view.lockedCount) withRows(*this, joint, [&]<int>(auto& rows) { maskLocked(joint, rows, view); });
   }
 }
 
@@ -202,7 +241,7 @@ void Forest::factor(const BatchView& view, const uint8_t* active) {
     if (node.joint < 0) continue;
     TreeJoint& joint = joints[static_cast<size_t>(node.joint)];
     TreeNode* parent = node.parent >= 0 ? &nodes[static_cast<size_t>(node.parent)] : nullptr;
-    joint.angular ? eliminate<6>(node, joint, parent) : eliminate<3>(node, joint, parent);
+    withRows(*this, joint, [&]<int kFixed>(auto& rows) { eliminate<kFixed>(node, rows, parent); });
   }
 }
 
@@ -218,7 +257,7 @@ void Forest::down(const BatchView& view, const uint8_t* active, bool violated) {
     if (node.joint < 0 || !active[node.island]) continue;
     TreeJoint& joint = joints[static_cast<size_t>(node.joint)];
     TreeNode* parent = node.parent >= 0 ? &nodes[static_cast<size_t>(node.parent)] : nullptr;
-    joint.angular ? descend<6>(node, joint, parent, violated) : descend<3>(node, joint, parent, violated);
+    withRows(*this, joint, [&]<int kFixed>(auto& rows) { descend<kFixed>(node, rows, parent, violated); });
   }
 }
 
@@ -232,7 +271,7 @@ void Forest::up(const BatchView& view, const uint8_t* active) {
     } else {
       TreeJoint& joint = joints[static_cast<size_t>(node.joint)];
       const float* parentZ = node.parent >= 0 ? nodes[static_cast<size_t>(node.parent)].y : nullptr;
-      joint.angular ? ascend<6>(node, joint, parentZ, z) : ascend<3>(node, joint, parentZ, z);
+      withRows(*this, joint, [&]<int kFixed>(auto& rows) { ascend<kFixed>(node, rows, parentZ, z); });
     }
     float* out = view.z + 8 * node.row;
     for (int k = 0; k < 3; ++k) out[k] = z[k], out[4 + k] = z[3 + k];
@@ -243,15 +282,18 @@ void Forest::up(const BatchView& view, const uint8_t* active) {
 void Forest::takeFromResidual(const BatchView& view, const uint8_t* active) {
   for (const TreeNode& node : nodes) {
     if (node.joint < 0 || !active[node.island]) continue;
-    const TreeJoint& joint = joints[static_cast<size_t>(node.joint)];
     float* child = view.r + 8 * node.row;
     float* parent = node.parent >= 0 ? view.r + 8 * nodes[static_cast<size_t>(node.parent)].row : nullptr;
-    for (int i = 0; i < joint.m; ++i)
-      for (int k = 0; k < 6; ++k) {
-        const int at = k < 3 ? k : k + 1;
-        child[at] -= joint.jc[i][k] * joint.mu[i];
-        if (parent) parent[at] -= joint.jp[i][k] * joint.mu[i];
+    withRows(*this, joints[static_cast<size_t>(node.joint)], [&]<int>(auto& rows) {
+      for (int i = 0; i < rows.m; ++i) {
+        if (complianceOf(rows, i) > 0) continue;  // elastic rows are part of H
+        for (int k = 0; k < 6; ++k) {
+          const int at = k < 3 ? k : k + 1;
+          child[at] -= rows.jc[i][k] * rows.mu[i];
+          if (parent) parent[at] -= rows.jp[i][k] * rows.mu[i];
+        }
       }
+    });
   }
 }
 
@@ -264,6 +306,12 @@ void Forest::solve(const BatchView& view, const uint8_t* active, bool violated) 
 void Forest::updateMultipliers(const uint8_t* active) {
   for (TreeJoint& joint : joints) {
     if (!active[joint.island]) continue;
+    if (joint.mixed >= 0) {
+      const MixedRows& rows = mixed[static_cast<size_t>(joint.mixed)];
+      for (int i = 0; i < rows.m; ++i)
+        if (rows.lambda[i]) *rows.lambda[i] += rows.total[i];
+      continue;
+    }
     float* lambda[6] = {&joint.rows.ball.lambda.x, &joint.rows.ball.lambda.y, &joint.rows.ball.lambda.z,
                         &joint.rows.lambda.x,      &joint.rows.lambda.y,      &joint.rows.lambda.z};
     for (int i = 0; i < joint.m; ++i) *lambda[i] += joint.total[i];

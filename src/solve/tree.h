@@ -13,20 +13,36 @@
 
 namespace avbd {
 
-/// A joint of a forest and what the factorisation keeps of it.
-struct TreeJoint {
+/// What the factorisation keeps of a joint of up to kMost rows.
+template <int kMost>
+struct TreeRows {
+  static constexpr int kRows = kMost;
+  static constexpr int kColumns = (kMost + 3) / 4 * 4;
+  int m = 0;
+  float violation[kMost], mu[kMost], total[kMost];
+  float jc[kMost][6], jp[kMost][6];  ///< rows of J
+  float u[6][kColumns];              ///< Hc^-1 Jc^T; columns beyond m are 0 (a register at a time)
+  float sFactor[kMost][kMost];       ///< LDL^T of S, inverse pivots on the diagonal
+  float w[kMost][6];                 ///< S^-1 Jp
+};
+
+/// A joint of a forest.
+struct TreeJoint : TreeRows<6> {
   uint32_t rowA = 0, rowB = 0;  ///< body rows; the static row for the world
   uint32_t slot = 0;            ///< of the world's joint
   uint32_t island = 0;          ///< of the batch
   bool angular = false;         ///< fixed joint: six rows; ball joint: three, in fixed.ball
   bool childIsA = true;
+  int32_t mixed = -1;  ///< in Forest::mixed: a scalar joint; `rows` and TreeRows<6> are then unused
   rows::FixedJoint<float> rows;
-  int m = 3;
-  float violation[6], mu[6], total[6];
-  float jc[6][6], jp[6][6];  ///< rows of J
-  float u[6][8];             ///< Hc^-1 Jc^T; columns beyond m are 0 (a register at a time)
-  float sFactor[6][6];       ///< LDL^T of S, inverse pivots on the diagonal
-  float w[6][6];             ///< S^-1 Jp
+};
+
+/// A scalar joint in a tree: exact rows, and elastic ones, which enter as multipliers too: S gets 1/k on its diagonal,
+/// so that a stiff spring costs no digits.
+struct MixedRows : TreeRows<18> {
+  uint32_t scalar = 0;         ///< in BatchView::scalar
+  float* lambda[18];           ///< of exact rows; null of elastic ones
+  float compliance[18];        ///< 1/k of elastic rows; 0 of exact ones
 };
 
 struct TreeNode {
@@ -44,6 +60,7 @@ class Forest {
  public:
   std::vector<TreeNode> nodes;
   std::vector<TreeJoint> joints;
+  std::vector<MixedRows> mixed;
 
   /// Adds the joints' forces and geometric stiffness to gradient, hessian and diagonal, and keeps J and C.
   void stamp(const BatchView& view, const uint8_t* active);

@@ -1,5 +1,6 @@
 // Last dual update: the multipliers become the forces at the end of the step, whole; the leak is taken when the next
 // step picks them up.
+#include "solve/scalar_joint.h"
 #include "step/step_data.h"
 
 namespace avbd {
@@ -7,7 +8,10 @@ namespace avbd {
 void updateRows(WorldData&, StepData& step) {
   SolveSettings settings = step.solve;
   settings.contactLeak = 1;
-  for (size_t i = 0; i < step.batches.size(); ++i) step.backend->updateRows(step.view(i), settings);
+  for (size_t i = 0; i < step.batches.size(); ++i) {
+    step.backend->updateRows(step.view(i), settings);
+    updateScalar(step.view(i));
+  }
 }
 
 }  // namespace avbd

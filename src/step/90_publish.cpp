@@ -1,6 +1,7 @@
 // Publication: poses, velocities, multipliers and reactions go back to the world.
 #include <algorithm>
 
+#include "solve/body_rows.h"
 #include "step/begin_rows.h"
 #include "step/free_motion.h"
 #include "step/publish_events.h"
@@ -108,7 +109,35 @@ void publishJoint(JointData& joint, const rows::BallJoint<float>& ball, rows::V3
   joint.reaction = {fromRow(-ball.lambda), fromRow(-torque)};
 }
 
-void publishJoints(WorldData& world, const StepData& step) {
+/// Multipliers of each coordinate, the twist with its full turns, and the whole force at frame A's origin.
+void publishScalarJoint(WorldData& world, const BatchView& view, ScalarJoint& scalar) {
+  JointData& joint = world.joints[scalar.slot];
+  D6Data& d6 = world.d6[scalar.slot];
+  const ScalarRows list = rowsOf(scalar, view);
+  rows::Twist<float> wrench = rows::zeroTwist<float>();
+  for (int i = 0; i < list.count; ++i) {
+    wrench.lin += list.row[i].lin * *list.lambda[i];
+    wrench.ang += list.row[i].ang * *list.lambda[i];
+  }
+  const rows::V3<float> torque = wrench.ang + cross(list.armA - scalar.rows.armA, wrench.lin);
+  const float lambda[6] = {wrench.lin.x, wrench.lin.y, wrench.lin.z, torque.x, torque.y, torque.z};
+  for (int i = 0; i < 6; ++i) joint.lambda[i] = lambda[i];
+  joint.reaction = {fromRow(-wrench.lin), fromRow(-torque)};
+  float q[6];
+  scalar.rows.coordinates(readTwist(view.d, scalar.rowA), readTwist(view.d, scalar.rowB), q);
+  d6.twist = q[3], d6.twistKnown = true;
+  for (int i = 0; i < 6; ++i) {
+    const rows::D6Axis<float>& x = scalar.rows.axis[i];
+    d6.lambda[i] = {x.lambda, x.lambdaLower, x.lambdaUpper, x.lambdaDrive, x.lambdaFriction};
+  }
+}
+
+void publishScalarJoints(WorldData& world, StepData& step, uint32_t batch) {
+  const BatchView view = step.view(batch);
+  for (uint32_t i = 0; i < view.scalar.count; ++i) publishScalarJoint(world, view, view.scalar.joint[i]);
+}
+
+void publishJoints(WorldData& world, StepData& step) {
   const rows::V3<float> none{0, 0, 0};
   for (size_t lane = 0; lane < step.ballJoint.size(); ++lane)
     if (step.ballJoint[lane] != kNone)
@@ -120,7 +149,8 @@ void publishJoints(WorldData& world, const StepData& step) {
   }
   for (uint32_t i = 0; i < step.forestCount; ++i)
     for (const TreeJoint& joint : step.forests[i].joints)
-      publishJoint(world.joints[joint.slot], joint.rows.ball, joint.angular ? joint.rows.lambda : none);
+      if (joint.mixed < 0) publishJoint(world.joints[joint.slot], joint.rows.ball, joint.angular ? joint.rows.lambda : none);
+  for (uint32_t i = 0; i < step.batches.size(); ++i) publishScalarJoints(world, step, i);
   for (size_t lane = 0; lane < step.tetJoint.size(); ++lane) {
     if (step.tetJoint[lane] == kNone) continue;
     JointData& joint = world.joints[step.tetJoint[lane]];

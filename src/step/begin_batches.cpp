@@ -17,11 +17,11 @@ void padLanes(std::vector<uint32_t>& lanes, uint32_t value) {
 }
 
 void clearLanes(StepData& step) {
-  for (auto* lanes : {step.contactRow, step.ballRow, step.fixedRow, step.fullRow})
+  for (auto* lanes : {step.contactRow, step.ballRow, step.fixedRow, step.fullRow, step.scalarRow})
     for (int side = 0; side < 2; ++side) lanes[side].clear();
   for (auto& lanes : step.tetRow) lanes.clear();
   step.contactPair.clear(), step.ballJoint.clear(), step.fixedJoint.clear(), step.tetJoint.clear();
-  step.fullPair.clear();
+  step.fullPair.clear(), step.scalar.clear();
   step.batches.clear(), step.ranges.clear(), step.lockedRows.clear(), step.locks.clear();
   step.forestCount = 0;
 }
@@ -74,11 +74,16 @@ void addJoints(const WorldData& world, StepData& step, BatchRange& batch) {
   batch.ballTile = static_cast<uint32_t>(step.ballJoint.size()) / kTile;
   batch.fixedTile = static_cast<uint32_t>(step.fixedJoint.size()) / kTile;
   batch.tetTile = static_cast<uint32_t>(step.tetJoint.size()) / kTile;
+  batch.scalarTile = static_cast<uint32_t>(step.scalar.size()) / kTile;
   plantForest(world, step, batch);
+  batch.scalarCount = static_cast<uint32_t>(step.scalar.size()) - batch.scalarTile * kTile;
+  step.scalar.resize(roundUp(static_cast<uint32_t>(step.scalar.size())));
   padLanes(step.ballJoint, kNone), padLanes(step.fixedJoint, kNone), padLanes(step.tetJoint, kNone);
   for (auto& lanes : step.ballRow) padLanes(lanes, batch.bodies);
   for (auto& lanes : step.fixedRow) padLanes(lanes, batch.bodies);
   for (auto& lanes : step.tetRow) padLanes(lanes, batch.bodies);
+  for (auto& lanes : step.scalarRow) padLanes(lanes, batch.bodies);
+  batch.scalarTiles = static_cast<uint32_t>(step.scalar.size()) / kTile - batch.scalarTile;
   batch.ballTiles = static_cast<uint32_t>(step.ballJoint.size()) / kTile - batch.ballTile;
   batch.fixedTiles = static_cast<uint32_t>(step.fixedJoint.size()) / kTile - batch.fixedTile;
   batch.tetTiles = static_cast<uint32_t>(step.tetJoint.size()) / kTile - batch.tetTile;
@@ -99,7 +104,7 @@ void resizeTiles(StepData& step) {
   step.tets.resize(step.tetJoint.size() / kTile);
   step.full.resize(step.fullPair.size() / kTile);
   step.fullOp.resize(step.full.size());
-  step.op.resize(step.contacts.size() + step.balls.size() + step.fixed.size());
+  step.op.resize(step.contacts.size() + step.balls.size() + step.fixed.size() + step.scalar.size() / kTile);
   step.tetOp.resize(step.tets.size());
 }
 
@@ -165,7 +170,10 @@ BatchView StepData::view(size_t index) {
              b.ballTiles};
   v.fixed = {fixed.data() + b.fixedTile, fixedRow[0].data() + b.fixedTile * kTile,
              fixedRow[1].data() + b.fixedTile * kTile, b.fixedTiles};
-  v.op = op.data() + b.contactTile + b.ballTile + b.fixedTile;
+  v.op = op.data() + b.contactTile + b.ballTile + b.fixedTile + b.scalarTile;
+  const size_t lane = size_t(b.scalarTile) * kTile;
+  v.scalar = {scalar.data() + lane, b.scalarCount, scalarRow[0].data() + lane, scalarRow[1].data() + lane,
+              b.scalarTiles};
   v.full = {full.data() + b.fullTile, fullRow[0].data() + b.fullTile * kTile, fullRow[1].data() + b.fullTile * kTile,
             b.fullTiles};
   v.fullOp = fullOp.data() + b.fullTile;

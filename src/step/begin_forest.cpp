@@ -1,5 +1,6 @@
 // Forests: which joints of a batch are solved exactly as trees; those that close loops become rows in tiles.
 #include "step/begin_rows.h"
+#include "world/joints.h"
 
 namespace avbd {
 
@@ -76,6 +77,7 @@ Forest& forestOf(StepData& step, BatchRange& batch) {
     batch.forest = step.forestCount++;
     step.forests[batch.forest].nodes.clear();
     step.forests[batch.forest].joints.clear();
+    step.forests[batch.forest].mixed.clear();
   }
   return step.forests[batch.forest];
 }
@@ -98,6 +100,23 @@ void addToTiles(StepData& step, BatchRange& batch, const TreeJoint& joint) {
   step.ranges[batch.islandBegin + joint.island].coupled = true;
 }
 
+/// A joint whose rows are evaluated one at a time.
+void addScalar(StepData& step, BatchRange& batch, TreeJoint& joint, bool tree) {
+  ScalarJoint scalar;
+  scalar.rowA = joint.rowA, scalar.rowB = joint.rowB;
+  scalar.slot = joint.slot, scalar.island = joint.island, scalar.inTree = tree;
+  if (tree) {
+    Forest& forest = forestOf(step, batch);
+    joint.mixed = static_cast<int32_t>(forest.mixed.size());
+    forest.mixed.emplace_back().scalar = static_cast<uint32_t>(step.scalar.size()) - batch.scalarTile * kTile;
+    addToTree(step, batch, joint);
+  } else {
+    step.ranges[batch.islandBegin + joint.island].coupled = true;
+  }
+  step.scalarRow[0].push_back(joint.rowA), step.scalarRow[1].push_back(joint.rowB);
+  step.scalar.push_back(scalar);
+}
+
 bool hasLocks(const WorldData& world, uint32_t body) { return body != kNone && world.bodies[body].locks != 0; }
 
 void placeJoint(const WorldData& world, StepData& step, BatchRange& batch, uint32_t slot, uint32_t island) {
@@ -113,7 +132,11 @@ void placeJoint(const WorldData& world, StepData& step, BatchRange& batch, uint3
   const bool locked = hasLocks(world, data.body[0]) || hasLocks(world, data.body[1]);
   const bool tree = world.def.primalSolver == PrimalSolver::Krylov && !locked &&
                     join(step.planting.set, element(joint.rowA), element(joint.rowB));
-  tree ? addToTree(step, batch, joint) : addToTiles(step, batch, joint);
+  if (isD6(data.type)) {
+    addScalar(step, batch, joint, tree);
+  } else {
+    tree ? addToTree(step, batch, joint) : addToTiles(step, batch, joint);
+  }
 }
 
 }  // namespace

@@ -2,63 +2,14 @@
 #include <algorithm>
 
 #include "step/begin_rows.h"
+#include "step/joint_side.h"
 
 namespace avbd {
 
 namespace {
 
-constexpr float kJointFactor = 1000;  ///< rho = this / (w h^2) for rows that no tree solves
-
-struct Side {
-  rows::V3<float> arm{0, 0, 0};      ///< world axes; zero of the world
-  Vec3d anchor;                      ///< world
-  rows::Q4<float> axes{1, 0, 0, 0};  ///< joint frame to world
-  float invMass = 0, turning = 0;    ///< turning: mean inverse inertia across the arm
-  rows::Sym3<float> invInertia{};
-};
-
-Side sideOf(const WorldData& world, const JointData& joint, int i) {
-  Side side;
-  if (joint.body[i] == kNone) {
-    side.anchor = joint.frame[i].position;
-    side.axes = toRow(joint.frame[i].rotation);
-    return side;
-  }
-  const BodyData& body = world.bodies[joint.body[i]];
-  const Vec3 arm = rotate(body.rotation, joint.anchor[i]);
-  side.anchor = body.position + arm;
-  side.axes = toRow(body.rotation * joint.axes[i]);
-  side.arm = toRow(arm);
-  if (body.type != BodyType::Dynamic) return side;
-  side.invMass = (body.locks & 7) == 7 ? 0 : 1 / body.mass;
-  side.invInertia = rotated(toRow(body.invInertia), toRow(body.rotation));
-  const float trace = side.invInertia.xx + side.invInertia.yy + side.invInertia.zz;
-  const float size = dot(side.arm, side.arm);
-  if ((body.locks >> 3) == 7)
-    side.invInertia = {};
-  else
-    side.turning = 0.5f * (trace - (size > 0 ? dot(side.arm, side.invInertia * side.arm) / size : trace / 3));
-  return side;
-}
-
-/// How far the arms in J go from the start of the step to its end: by the joint's own stability number
-/// chi = h^2 |F| |r| w, whose limit for the symplectic choice (0) is 4.
-float armBlend(const StepData& step, const Side& a, const Side& b, float force) {
-  const float chi =
-      step.h * step.h * force * std::max(rows::length(a.arm) * a.turning, rows::length(b.arm) * b.turning);
-  return 0.5f * std::clamp((chi - 1) / 3, 0.0f, 1.0f);
-}
-
-/// The part of a violation that this step corrects; no faster than allowed, so that parts far from where their joint
-/// wants them are drawn together and not shot.
-rows::V3<float> corrected(const StepData& step, const rows::V3<float>& violation, float speed) {
-  const rows::V3<float> part = violation * (1 - step.alpha);
-  const float size = length(part), most = speed * step.h;
-  return size > most ? part * (most / size) : part;
-}
-
 rows::FixedJoint<float> jointRows(const WorldData& world, const StepData& step, const JointData& joint) {
-  const Side a = sideOf(world, joint, 0), b = sideOf(world, joint, 1);
+  const JointSide a = jointSide(world, joint, 0), b = jointSide(world, joint, 1);
   rows::FixedJoint<float> rows{};
   rows.ball.rA = a.arm, rows.ball.rB = b.arm;
   const float speed = world.def.maxDepenetrationSpeed;
@@ -128,7 +79,9 @@ void fillJoints(const WorldData& world, StepData& step) {
     step.tets[lane / kTile].set(lane % kTile, rows);
   }
   for (uint32_t i = 0; i < step.forestCount; ++i)
-    for (TreeJoint& joint : step.forests[i].joints) joint.rows = jointRows(world, step, world.joints[joint.slot]);
+    for (TreeJoint& joint : step.forests[i].joints)
+      if (joint.mixed < 0) joint.rows = jointRows(world, step, world.joints[joint.slot]);
+  fillScalarJoints(world, step);
 }
 
 }  // namespace avbd

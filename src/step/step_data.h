@@ -8,6 +8,7 @@
 #include "collide/collide_surface.h"
 #include "solve/backend.h"
 #include "solve/krylov.h"
+#include "solve/scalar_joint.h"
 #include "solve/sweep.h"
 #include "step/free_motion.h"
 #include "world/world_data.h"
@@ -33,6 +34,7 @@ struct BatchRange {
   uint32_t fixedTile = 0, fixedTiles = 0;
   uint32_t tetTile = 0, tetTiles = 0;
   uint32_t fullTile = 0, fullTiles = 0;
+  uint32_t scalarTile = 0, scalarTiles = 0, scalarCount = 0;
   uint32_t lockedBegin = 0, lockedCount = 0;
   uint32_t forest = kNone;  ///< in StepData::forests
 };
@@ -169,7 +171,8 @@ struct StepData {
   AlignedVector<Tile<rows::FixedJoint>> fixed;
   AlignedVector<Tile<rows::TetVolume>> tets;
   AlignedVector<Tile<rows::FullContact>> full;
-  std::vector<uint32_t> contactRow[2], ballRow[2], fixedRow[2], tetRow[4], fullRow[2];
+  std::vector<ScalarJoint> scalar;  ///< by lane; padding has no slot
+  std::vector<uint32_t> contactRow[2], ballRow[2], fixedRow[2], tetRow[4], fullRow[2], scalarRow[2];
   std::vector<uint32_t> contactPair, ballJoint, fixedJoint, tetJoint;  ///< by lane: pair or joint slot, kNone
   AlignedVector<Tile<PairOp>> op;
   std::vector<uint32_t> fullPair;  ///< by lane, as contactPair

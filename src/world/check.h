@@ -81,4 +81,16 @@ JointData checkedJoint(const WorldData& data, const BallJoint& def);
 JointData checkedJoint(const WorldData& data, const FixedJoint& def);
 JointData checkedJoint(const WorldData& data, const TetVolume& def);
 
+/// A hinge, slider or D6 joint, ready to be added.
+struct D6Plan {
+  JointData joint;
+  D6Data d6;
+};
+D6Plan checkedJoint(const WorldData& data, const HingeJoint& def);
+D6Plan checkedJoint(const WorldData& data, const SliderJoint& def);
+D6Plan checkedJoint(const WorldData& data, const D6Joint& def);
+/// angular: of an angle. Returns nothing: limits and drives are kept as they are.
+void checkLimit(const Path& path, const JointLimit& limit, bool swing, bool angular, double unit);
+void checkDrive(const Path& path, const JointDrive& drive, bool angular, double unit);
+
 }  // namespace avbd

@@ -6,8 +6,9 @@
 namespace avbd {
 namespace {
 
-void updateAnchor(const WorldData& data, JointData& joint, int side) {
+void updateAnchor(const WorldData& data, uint32_t slot, JointData& joint, int side) {
   joint.axes[side] = joint.frame[side].rotation;
+  if (isD6(joint.type)) joint.axes[side] = joint.axes[side] * innerAxes(data.d6[slot].turned);
   if (joint.body[side] == kNone) return;
   joint.anchor[side] = toFloat(joint.frame[side].position - toDouble(data.bodies[joint.body[side]].center));
 }
@@ -28,8 +29,19 @@ void unlink(WorldData& data, uint32_t slot, int side) {
 
 }  // namespace
 
-uint32_t addJoint(WorldData& data, const JointData& checked) {
+Quat innerAxes(int turned) {
+  constexpr Quat kTurns[] = {{1, 0, 0, 0}, {0.5f, 0.5f, 0.5f, 0.5f}, {0.5f, -0.5f, -0.5f, -0.5f}};
+  return kTurns[turned];
+}
+
+uint32_t addJoint(WorldData& data, const JointData& checked) { return addJoint(data, checked, {}); }
+
+uint32_t addJoint(WorldData& data, const JointData& checked, const D6Data& d6) {
   const uint32_t slot = data.jointIds.slot(data.jointIds.create());
+  if (isD6(checked.type)) {
+    if (slot >= data.d6.size()) data.d6.resize(slot + 1);
+    data.d6[slot] = d6;
+  }
   if (slot >= data.joints.size()) data.joints.resize(slot + 1);
   JointData& joint = data.joints[slot];
   joint = checked;
@@ -39,8 +51,8 @@ uint32_t addJoint(WorldData& data, const JointData& checked) {
     data.bodies[joint.body[side]].firstJoint = slot;
   }
   if (joint.type != JointType::TetVolume) {
-    updateAnchor(data, joint, 0);
-    updateAnchor(data, joint, 1);
+    updateAnchor(data, slot, joint, 0);
+    updateAnchor(data, slot, joint, 1);
   }
   if (excludes(joint)) exclude(data, joint.body[0], joint.body[1]);
   return slot;
@@ -65,7 +77,7 @@ void updateAnchorsOf(WorldData& data, uint32_t body) {
   while (slot != kNone) {
     JointData& joint = data.joints[slot];
     const int side = sideOf(joint, body);
-    if (joint.type != JointType::TetVolume) updateAnchor(data, joint, side);
+    if (joint.type != JointType::TetVolume) updateAnchor(data, slot, joint, side);
     slot = joint.next[side];
   }
 }

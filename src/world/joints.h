@@ -11,6 +11,13 @@ void removeJointsOf(WorldData& data, uint32_t body);
 /// After the centre of mass of `body` has changed.
 void updateAnchorsOf(WorldData& data, uint32_t body);
 
+/// Whether D6Data belongs to joints of this type.
+inline bool isD6(JointType type) { return type >= JointType::Hinge; }
+uint32_t addJoint(WorldData& data, const JointData& joint, const D6Data& d6);
+
+/// The rotation that takes inner axes to the user's (D6Data::turned).
+Quat innerAxes(int turned);
+
 /// Joint frame 0 or 1 in the world.
 Pose worldFrame(const WorldData& data, const JointData& joint, int side);
 /// Signed volume between the centres of mass.

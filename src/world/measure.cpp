@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "world/bodies.h"
+#include "world/joint_coordinates.h"
 #include "world/joints.h"
 
 namespace avbd {
@@ -16,6 +17,10 @@ void forEachDynamic(const WorldData& data, F&& f) {
   data.bodyIds.forEach([&](uint32_t slot) {
     if (data.bodies[slot].type == BodyType::Dynamic) f(data.bodies[slot]);
   });
+}
+
+uint32_t slotOf(const WorldData& data, const JointData& joint) {
+  return static_cast<uint32_t>(&joint - data.joints.data());
 }
 
 }  // namespace
@@ -48,10 +53,12 @@ Vec3d totalAngularMomentum(const WorldData& data, Vec3d about) {
 
 double jointGap(const WorldData& data, const JointData& joint) {
   if (joint.type == JointType::TetVolume) return std::abs(tetVolume(data, joint) - joint.restVolume);
+  if (isD6(joint.type)) return lockedGap(data, slotOf(data, joint));
   return length(worldFrame(data, joint, 0).position - worldFrame(data, joint, 1).position);
 }
 
 double jointAngleError(const WorldData& data, const JointData& joint) {
+  if (isD6(joint.type)) return lockedAngle(data, slotOf(data, joint));
   if (joint.type != JointType::Fixed) return 0;
   const Quat a = worldFrame(data, joint, 0).rotation, b = worldFrame(data, joint, 1).rotation;
   const Quat turn = conjugate(a) * b;

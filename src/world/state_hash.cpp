@@ -2,6 +2,7 @@
 #include "world/state_hash.h"
 
 #include "base/hash.h"
+#include "world/joints.h"
 #include "world/pairs.h"
 
 namespace avbd {
@@ -14,6 +15,15 @@ void add(Hash64& hash, const BodyData& body) {
   hash.value(body.angularVelocity);
   hash.value(body.force);
   hash.value(body.torque);
+}
+
+void add(Hash64& hash, const D6Data& d6) {
+  hash.value(d6.twist);
+  hash.value(static_cast<uint8_t>(d6.twistKnown));
+  for (const D6Data::Multipliers& l : d6.lambda) {
+    const float all[] = {l.lock, l.lower, l.upper, l.drive, l.friction};
+    hash.value(all);
+  }
 }
 
 void add(Hash64& hash, const PointMemory& point) {
@@ -68,6 +78,7 @@ uint64_t stateHash(const WorldData& data) {
   data.jointIds.forEach([&](uint32_t slot) {
     hash.value(slot);
     hash.value(data.joints[slot].lambda);
+    if (isD6(data.joints[slot].type)) add(hash, data.d6[slot]);
   });
   forEachPair(data, [&](const PairData& pair) { add(hash, pair); });
   return hash.digest();

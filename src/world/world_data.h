@@ -68,6 +68,19 @@ struct JointData {
   uint64_t userData = 0;
 };
 
+/// What a hinge, slider or D6 joint has besides, in the order of its inner coordinates: where only one swing is free,
+/// the frames are turned so that it is the twist.
+struct D6Data {
+  D6Axis axis[6];
+  uint8_t turned = 0;  ///< inner axis i is the user's axis (i + turned) mod 3
+  float twist = 0;     ///< [rad] at the end of the last step, full turns counted
+  bool twistKnown = false;
+  struct Multipliers {
+    float lock = 0, lower = 0, upper = 0, drive = 0, friction = 0;
+  };
+  Multipliers lambda[6];  ///< along the coordinate, on B [N, N m]
+};
+
 /// What a contact point remembers.
 struct PointMemory {
   uint32_t feature = 0;
@@ -126,6 +139,7 @@ struct WorldData {
   std::vector<BodyData> bodies;  ///< by slot
   std::vector<ShapeData> shapes;
   std::vector<JointData> joints;
+  std::vector<D6Data> d6;               ///< by joint slot, up to the highest that needs one
   std::vector<PairData> pairs;          ///< ordered by key
   std::vector<uint64_t> excludedPairs;  ///< body slots, low << 32 | high, sorted, each as often as it was excluded
   DynamicTree tree;                     ///< fat bounds of all shapes; user data is the shape's slot

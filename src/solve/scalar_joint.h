@@ -1,0 +1,59 @@
+// Joints whose rows are evaluated one at a time: which rows they have differs from joint to joint, so lanes would idle.
+//
+// Every row falls into one of three kinds, anew in each iteration:
+// - exact: hard rows of a tree, met by a multiplier that the tree finds; one-sided ones while they push.
+// - elastic: force k C + s lambda within its bounds, with k in the Hessian: springs, drives, friction that sticks, and
+//   in loops all hard rows too.
+//   At a bound the Hessian is a majoriser, as in contacts: k times the share of the trial force that the bound allows.
+// - none: one-sided rows that do not push.
+#pragma once
+
+#include <vector>
+
+#include "avbd/rows/d6_joint.h"
+#include "avbd/rows/sinks.h"
+#include "solve/batch.h"
+
+namespace avbd {
+
+inline constexpr int kScalarRows = 24;  ///< most that a D6 joint can emit: limits, drive and friction of six axes
+
+struct ScalarJoint {
+  rows::D6Joint<float> rows;
+  rows::D6Axes axes;
+  uint32_t rowA = 0, rowB = 0;  ///< body rows; the static row for the world
+  uint32_t slot = 0;            ///< of the world's joint
+  uint32_t island = 0;          ///< of the batch
+  bool inTree = false;
+};
+
+/// The rows of a joint at one pose.
+using ScalarRows = rows::ProbeSink<float, kScalarRows>;
+ScalarRows rowsOf(ScalarJoint& joint, const BatchView& view);
+
+enum class RowKind : uint8_t { None, Exact, Elastic };
+
+struct RowForce {
+  RowKind kind = RowKind::None;
+  float force = 0;  ///< of an exact row its multiplier
+  float k = 0;      ///< in the Hessian, of elastic rows
+};
+RowForce forceOf(const rows::PairRow<float>& row, float lambda, bool inTree);
+
+/// What a joint's rows add up to about their reference point: the wrench on A, and the stiffness of elastic rows.
+struct ScalarStamp {
+  rows::Twist<float> wrench = rows::zeroTwist<float>();
+  rows::Sym6<float> stiffness = rows::zeroSym6<float>();
+};
+ScalarStamp stampOf(const ScalarJoint& joint, const ScalarRows& list);
+
+/// lambda <- force of all rows that no tree solves exactly, of hard ones times `leak`; one-sided rows of a tree that let
+/// go forget theirs.
+void moveMultipliers(ScalarJoint& joint, const BatchView& view, float leak);
+
+/// Adds the joints of loops to gradient and Hessian, and keeps what the products need of all; with `dual` moves the
+/// multipliers first. `active`: by island of the batch, those that take part.
+void stampScalar(const BatchView& view, float leak, bool dual, const uint8_t* active);
+void updateScalar(const BatchView& view);
+
+}  // namespace avbd

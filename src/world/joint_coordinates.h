@@ -1,0 +1,25 @@
+// Where the coordinates of hinges, sliders and D6 joints are (avbd/rows/d6_joint.h). In double; nothing here feeds back.
+#pragma once
+
+#include "world/world_data.h"
+
+namespace avbd {
+
+/// By inner axis (D6Data).
+struct JointMotion {
+  double position[6] = {}, velocity[6] = {};  ///< the twist with full turns
+};
+JointMotion motionOf(const WorldData& data, uint32_t joint);
+
+/// Distance along locked axes.
+double lockedGap(const WorldData& data, uint32_t joint);
+/// Angle about locked axes.
+double lockedAngle(const WorldData& data, uint32_t joint);
+
+/// Inner axis of a user's one.
+inline size_t innerAxis(const D6Data& d6, JointAxis axis) {
+  const size_t i = static_cast<size_t>(axis), group = i / 3 * 3;
+  return group + (i - group + 3 - d6.turned) % 3;
+}
+
+}  // namespace avbd
