@@ -103,7 +103,7 @@ constexpr std::array<std::string_view, 86> kOrder{"rest",
 std::vector<Line> collect() {
   std::vector<Line> list;
   for (const auto group : {restLines, frictionLines, motionLines, collisionLines, shapeLines, scaleLines, jointLines,
-                           stateLines, badInputLines, skippedLines})
+                           driveLines, stateLines, badInputLines, skippedLines})
     for (Line& line : group()) list.push_back(std::move(line));
   const auto rank = [](const Line& line) {
     return std::find(kOrder.begin(), kOrder.end(), line.name) - kOrder.begin();

@@ -31,6 +31,7 @@ std::vector<Line> collisionLines();
 std::vector<Line> shapeLines();
 std::vector<Line> scaleLines();
 std::vector<Line> jointLines();
+std::vector<Line> driveLines();
 std::vector<Line> stateLines();
 std::vector<Line> badInputLines();
 /// What is not built yet, by name.

@@ -41,10 +41,10 @@ struct JointLimit {
 /// A spring and damper that pull a coordinate to a position and speed: force = stiffness (position - q) + damping
 /// (velocity - dq/dt), within +-maxForce. With stiffness 0 a motor.
 struct JointDrive {
-  float stiffness = 0;  ///< [N/m, N m/rad] >= 0
-  float damping = 0;    ///< [N s/m, N m s/rad] >= 0
-  float position = 0;   ///< [m, rad]
-  float velocity = 0;   ///< [m/s, rad/s]
+  float stiffness = 0;                                      ///< [N/m, N m/rad] >= 0
+  float damping = 0;                                        ///< [N s/m, N m s/rad] >= 0
+  float position = 0;                                       ///< [m, rad]
+  float velocity = 0;                                       ///< [m/s, rad/s]
   float maxForce = std::numeric_limits<float>::infinity();  ///< [N, N m] > 0
   /// Stiffness and damping are those of a unit mass [1/s^2, 1/s]: the motion is the same for light and heavy bodies.
   bool acceleration = false;
@@ -85,8 +85,8 @@ struct SliderJoint {
 /// The general joint: each of six coordinates locked or free, with limit, drive and friction.
 struct D6Joint {
   BodyId bodyA{}, bodyB{};
-  Pose frameA{}, frameB{};        ///< in each body's frame
-  std::array<D6Axis, 6> axes{};   ///< by JointAxis
+  Pose frameA{}, frameB{};       ///< in each body's frame
+  std::array<D6Axis, 6> axes{};  ///< by JointAxis
   bool collideConnected = false;
   uint64_t userData = 0;
 };

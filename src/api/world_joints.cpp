@@ -16,7 +16,7 @@ const JointData& jointOfType(const WorldData& data, JointId id, JointType type, 
   const JointData& joint = jointOf(data, id, call);
   if (joint.type == type) return joint;
   constexpr const char* kRange[] = {"must name a ball joint", "must name a fixed joint", "must name a tet volume",
-                                    "must name a hinge", "must name a slider", "must name a D6 joint"};
+                                    "must name a hinge",      "must name a slider",      "must name a D6 joint"};
   (Path(call) / "id").refuse(toText(id), kRange[static_cast<size_t>(type)]);
 }
 
@@ -68,8 +68,14 @@ template <class Def>
 Def oneAxisDef(const WorldData& data, JointId id, JointType type, JointAxis axis, const char* call) {
   const JointData& joint = jointOfType(data, id, type, call);
   const D6Axis& free = data.d6[data.jointIds.slot(id)].axis[static_cast<size_t>(axis)];
-  return {bodyIdOf(data, joint.body[0]), bodyIdOf(data, joint.body[1]), joint.frame[0],         joint.frame[1],
-          free.limit,                    free.drive,                    free.friction,          joint.collideConnected,
+  return {bodyIdOf(data, joint.body[0]),
+          bodyIdOf(data, joint.body[1]),
+          joint.frame[0],
+          joint.frame[1],
+          free.limit,
+          free.drive,
+          free.friction,
+          joint.collideConnected,
           joint.userData};
 }
 

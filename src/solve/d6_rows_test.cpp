@@ -18,7 +18,8 @@ D6Joint<float> randomJoint(Random& random, float most) {
   D6Joint<float> joint{};
   joint.offset = randomVector(random, 1), joint.armA = randomVector(random, 1), joint.armB = randomVector(random, 1);
   joint.qA = randomTurn(random, 2);
-  const V3<float> swing = rows::normalised(V3<float>{0, random.number(1), random.number(1)}) * (most * random.number(1));
+  const V3<float> swing =
+      rows::normalised(V3<float>{0, random.number(1), random.number(1)}) * (most * random.number(1));
   const V3<float> twist{random.number(3), 0, 0};
   joint.qB = joint.qA * rows::expQuat(swing) * rows::expQuat(twist);
   joint.tau = std::fabs(random.number(0.5f));
@@ -83,7 +84,8 @@ void expectDerivative(const D6Joint<float>& of, const D6Axes& axes) {
 
 TEST(D6Rows, JacobianIsTheDerivative) {
   Random random(1);
-  for (int round = 0; round < 300 && !HasFatalFailure(); ++round) expectDerivative(randomJoint(random, 2.5f), kAllDriven);
+  for (int round = 0; round < 300 && !HasFatalFailure(); ++round)
+    expectDerivative(randomJoint(random, 2.5f), kAllDriven);
 }
 
 // A locked swing is measured by its sine; locked angles all three by their rotation vector, where the frames coincide.

@@ -47,8 +47,8 @@ struct ScalarStamp {
 };
 ScalarStamp stampOf(const ScalarJoint& joint, const ScalarRows& list);
 
-/// lambda <- force of all rows that no tree solves exactly, of hard ones times `leak`; one-sided rows of a tree that let
-/// go forget theirs.
+/// lambda <- force of all rows that no tree solves exactly, of hard ones times `leak`; one-sided rows of a tree that
+/// let go forget theirs.
 void moveMultipliers(ScalarJoint& joint, const BatchView& view, float leak);
 
 /// Adds the joints of loops to gradient and Hessian, and keeps what the products need of all; with `dual` moves the

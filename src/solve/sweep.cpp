@@ -40,8 +40,7 @@ void solveSweep(const BatchView& view, const Backend& backend, const SolveSettin
     // Always in the same order. To and fro, the last colour would be the next iteration's first, where little has moved
     // since: with the few colours of a pile that wastes a good part of the work (docs/performance.md).
     if (i > 0)
-      for (uint32_t n = 0; n < view.scalar.count; ++n)
-        moveMultipliers(view.scalar.joint[n], view, settings.jointLeak);
+      for (uint32_t n = 0; n < view.scalar.count; ++n) moveMultipliers(view.scalar.joint[n], view, settings.jointLeak);
     for (uint32_t c = 0; c < plan.colors().size(); ++c) {
       const SweepColor& color = plan.colors()[c];
       backend.stampColor(view, sweep, color);

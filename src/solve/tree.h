@@ -40,9 +40,9 @@ struct TreeJoint : TreeRows<6> {
 /// A scalar joint in a tree: exact rows, and elastic ones, which enter as multipliers too: S gets 1/k on its diagonal,
 /// so that a stiff spring costs no digits.
 struct MixedRows : TreeRows<18> {
-  uint32_t scalar = 0;         ///< in BatchView::scalar
-  float* lambda[18];           ///< of exact rows; null of elastic ones
-  float compliance[18];        ///< 1/k of elastic rows; 0 of exact ones
+  uint32_t scalar = 0;   ///< in BatchView::scalar
+  float* lambda[18];     ///< of exact rows; null of elastic ones
+  float compliance[18];  ///< 1/k of elastic rows; 0 of exact ones
 };
 
 struct TreeNode {

@@ -149,7 +149,8 @@ void publishJoints(WorldData& world, StepData& step) {
   }
   for (uint32_t i = 0; i < step.forestCount; ++i)
     for (const TreeJoint& joint : step.forests[i].joints)
-      if (joint.mixed < 0) publishJoint(world.joints[joint.slot], joint.rows.ball, joint.angular ? joint.rows.lambda : none);
+      if (joint.mixed < 0)
+        publishJoint(world.joints[joint.slot], joint.rows.ball, joint.angular ? joint.rows.lambda : none);
   for (uint32_t i = 0; i < step.batches.size(); ++i) publishScalarJoints(world, step, i);
   for (size_t lane = 0; lane < step.tetJoint.size(); ++lane) {
     if (step.tetJoint[lane] == kNone) continue;

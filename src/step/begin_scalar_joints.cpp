@@ -12,8 +12,8 @@ using rows::V3;
 /// What all coordinates of one joint share.
 struct Frame {
   JointSide a, b;
-  V3<float> axis[3];       ///< of frame A, world
-  V3<float> armA, armB;    ///< to frame B's origin
+  V3<float> axis[3];     ///< of frame A, world
+  V3<float> armA, armB;  ///< to frame B's origin
   bool inTree;
 };
 
@@ -40,9 +40,9 @@ Elastic elastic(float stiffness, float rho, bool inTree) {
   return {stiffness * (rho / (stiffness + rho)), stiffness / (stiffness + rho)};
 }
 
-void fillLimit(const WorldData& world, const StepData& step, const JointLimit& limit, rows::D6Axis<float>& x, float rho,
-               bool inTree, float unit) {
-  const float speed = world.def.maxDepenetrationSpeed / unit;
+/// speed: at which what lies beyond a stop is brought back at most, in the coordinate's unit.
+void fillLimit(const StepData& step, const JointLimit& limit, rows::D6Axis<float>& x, float rho, bool inTree,
+               float speed) {
   x.k = rho, x.s = 1;
   // Inside, the stop is where it is; beyond it, a part of the way back is asked for.
   const float below = std::min(x.start - limit.lower, 0.0f), above = std::max(x.start - limit.upper, 0.0f);
@@ -76,7 +76,7 @@ void fillAxis(const WorldData& world, const StepData& step, const Frame& frame, 
   const D6Axis& axis = data.axis[i];
   rows::D6Axis<float>& x = joint.rows.axis[i];
   const float w = inverseMassOf(frame, i), rho = w > 0 ? kJointFactor / (w * step.h * step.h) : 0;
-  const float unit = i < 3 ? 1 : world.def.lengthUnit;
+  const float speed = world.def.maxDepenetrationSpeed / (i < 3 ? 1 : world.def.lengthUnit);
   const auto bit = static_cast<uint8_t>(1 << i);
   const D6Data::Multipliers& l = data.lambda[i];
   x.lambda = l.lock, x.lambdaLower = l.lower, x.lambdaUpper = l.upper;
@@ -84,12 +84,12 @@ void fillAxis(const WorldData& world, const StepData& step, const Frame& frame, 
   x.k = rho, x.s = 1;
   if (axis.motion == AxisMotion::Locked) {
     joint.axes.locked |= bit;
-    x.held = x.start - corrected(step, x.start, world.def.maxDepenetrationSpeed / unit);
+    x.held = x.start - corrected(step, x.start, speed);
     return;
   }
   if (isLimited(axis.limit)) {
     joint.axes.limited |= bit;
-    fillLimit(world, step, axis.limit, x, rho, frame.inTree, unit);
+    fillLimit(step, axis.limit, x, rho, frame.inTree, speed);
   }
   if (axis.drive.stiffness > 0 || axis.drive.damping > 0) {
     joint.axes.driven |= bit;

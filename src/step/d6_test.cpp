@@ -50,8 +50,8 @@ TEST(Hinge, StopsAtItsLimits) {
   // A bar that falls about z, its stop half a radian below.
   const Quat across = turned({0, 1, 0}, -M_PI / 2);
   const BodyId bar = world.create(box({0.5, 0, 0}));
-  const JointId hinge = world.create(HingeJoint{
-      .bodyB = bar, .frameA = {{}, across}, .frameB = {{-0.5, 0, 0}, across}, .limit = {-0.5f, 0.5f}});
+  const JointId hinge = world.create(
+      HingeJoint{.bodyB = bar, .frameA = {{}, across}, .frameB = {{-0.5, 0, 0}, across}, .limit = {-0.5f, 0.5f}});
   double least = 0;
   for (int i = 0; i < 300; ++i) {
     run(world, 1);
@@ -92,8 +92,8 @@ TEST(Slider, CarriesItsBodyAlongTheAxis) {
   World world({.gravity = {0, -9.81f, 0}});
   const Quat up = turned({0, 0, 1}, M_PI / 2);
   const BodyId cabin = world.create(box({0, 3, 0}));
-  const JointId slider = world.create(SliderJoint{
-      .bodyB = cabin, .frameA = {{}, up}, .frameB = {{}, up}, .limit = {1, 4}, .drive = {}, .friction = 0});
+  const JointId slider = world.create(
+      SliderJoint{.bodyB = cabin, .frameA = {{}, up}, .frameB = {{}, up}, .limit = {1, 4}, .drive = {}, .friction = 0});
   run(world, 20);
   EXPECT_LT(world.coordinate(slider).velocity, -3);
   run(world, 200);
@@ -108,8 +108,8 @@ TEST(Slider, FrictionHoldsUpToItsForce) {
     const Quat up = turned({0, 0, 1}, M_PI / 2);
     const BodyId cabin = world.create(box({0, 3, 0}));
     const double weight = world.mass(cabin) * 9.81;
-    const JointId slider = world.create(SliderJoint{
-        .bodyB = cabin, .frameA = {{}, up}, .frameB = {{}, up}, .friction = float(share * weight)});
+    const JointId slider = world.create(
+        SliderJoint{.bodyB = cabin, .frameA = {{}, up}, .frameB = {{}, up}, .friction = float(share * weight)});
     run(world, 60);
     EXPECT_NEAR(world.coordinate(slider).velocity, share > 1 ? 0 : -9.81 * 0.5, 0.02) << share;
     EXPECT_NEAR(world.coordinate(slider).position, share > 1 ? 3 : 3 - 0.5 * 9.81 * 0.5, 0.05) << share;

@@ -56,7 +56,8 @@ void checkDrive(const Path& path, const JointDrive& drive, bool angular, double 
   check(path / "damping", drive.damping, notNegative(kMaxStiffness));
   check(path / "position", drive.position, symmetric(angular ? kMostTurns : kMaxSize * unit));
   check(path / "velocity", drive.velocity, symmetric(angular ? kMaxSpin : kMaxSpeed * unit));
-  if (!(isInfinite(drive.maxForce) && drive.maxForce > 0)) check(path / "maxForce", drive.maxForce, positive(kMaxForce));
+  if (!(isInfinite(drive.maxForce) && drive.maxForce > 0))
+    check(path / "maxForce", drive.maxForce, positive(kMaxForce));
 }
 
 D6Plan checkedJoint(const WorldData& data, const HingeJoint& def) {

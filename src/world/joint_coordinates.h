@@ -1,4 +1,5 @@
-// Where the coordinates of hinges, sliders and D6 joints are (avbd/rows/d6_joint.h). In double; nothing here feeds back.
+// Where the coordinates of hinges, sliders and D6 joints are (avbd/rows/d6_joint.h). In double; nothing here feeds
+// back.
 #pragma once
 
 #include "world/world_data.h"

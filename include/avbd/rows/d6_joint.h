@@ -9,7 +9,8 @@
 //   J_sz = g (b1 x a2) + by g' (b1 x a1), J_sy = -g (b1 x a3) - bz g' (b1 x a1), g' = dg/dbx = (bx g - 1) / (1 - bx^2).
 // - swing locked: its row is C = by (z) or C = -bz (y), whose J = b1 x a2 and a3 x b1 need no division.
 // J is the turning's; on A it acts with the opposite sign. Linear rows act at frame B's origin, so that J takes A's
-// turning along. Axes and arms in J are a blend (1 - tau) start + tau end, as the ball joint's are, for the same reason.
+// turning along. Axes and arms in J are a blend (1 - tau) start + tau end, as the ball joint's are, for the same
+// reason.
 //
 // Rows of an axis: the lock (C = q - held, hard), or a lower and an upper limit (hard, one-sided), a drive
 // (C = q - target, of finite stiffness, bounded), and friction (C = q - q_start, bounded on both sides).
@@ -31,11 +32,11 @@ struct D6Axes {
 /// One coordinate's constants and multipliers. Multipliers act along +q on B.
 template <class R>
 struct D6Axis {
-  R start;                                 ///< coordinate at the start of the step, unwrapped [m, rad]
-  R held;                                  ///< of a lock: what C leaves uncorrected
-  R lower, upper;                          ///< of a limit: coordinate at which its row begins to push
-  R k, s;                                  ///< of lock and limits: stiffness in use and share, 1 where hard
-  R target, kDrive, sDrive, driveMost;     ///< of a drive: where C is 0, stiffness in use, share, bound
+  R start;                              ///< coordinate at the start of the step, unwrapped [m, rad]
+  R held;                               ///< of a lock: what C leaves uncorrected
+  R lower, upper;                       ///< of a limit: coordinate at which its row begins to push
+  R k, s;                               ///< of lock and limits: stiffness in use and share, 1 where hard
+  R target, kDrive, sDrive, driveMost;  ///< of a drive: where C is 0, stiffness in use, share, bound
   R kFriction, frictionMost;
   R lambda, lambdaLower, lambdaUpper, lambdaDrive, lambdaFriction;
 };
@@ -48,12 +49,12 @@ AVBD_INLINE R withinHalfTurn(R x) {
 
 template <class R>
 struct D6Joint {
-  V3<R> offset;        ///< from frame A's origin to frame B's at the start of the step, world axes
-  V3<R> armA, armB;    ///< centre of mass to frame A's and to frame B's origin
-  Q4<R> qA, qB;        ///< frames to world at the start of the step
+  V3<R> offset;      ///< from frame A's origin to frame B's at the start of the step, world axes
+  V3<R> armA, armB;  ///< centre of mass to frame A's and to frame B's origin
+  Q4<R> qA, qB;      ///< frames to world at the start of the step
   R tau;
-  R rawTwist;          ///< twist at the start as the rows see it, within half a turn
-  V3<R> logHeld;       ///< of three locked angles: what C leaves uncorrected
+  R rawTwist;     ///< twist at the start as the rows see it, within half a turn
+  V3<R> logHeld;  ///< of three locked angles: what C leaves uncorrected
   D6Axis<R> axis[6];
 
   /// The coordinates after the motions, unwrapped.
@@ -181,8 +182,7 @@ struct D6Joint {
     if (axes.driven >> i & 1)
       sink.emit(PairRow<R>{q - x.target, lin, ang, x.kDrive, x.sDrive, -x.driveMost, x.driveMost}, x.lambdaDrive);
     if (axes.rubbing >> i & 1)
-      sink.emit(PairRow<R>{q - x.start, lin, ang, x.kFriction, one, -x.frictionMost, x.frictionMost},
-                x.lambdaFriction);
+      sink.emit(PairRow<R>{q - x.start, lin, ang, x.kFriction, one, -x.frictionMost, x.frictionMost}, x.lambdaFriction);
   }
 };
 
