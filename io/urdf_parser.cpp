@@ -34,6 +34,7 @@ void Parser::parse() {
     note(robot, "the robot has no name: that of the file is taken");
   }
   const std::vector<Elem> parts = source_.children(robot);
+  readMaterials(parts);
   for (const Elem& part : parts) {
     if (part.name() == "link") readLink(part);
   }
@@ -45,13 +46,11 @@ void Parser::parse() {
   dropMimicLoops();
   for (const Elem& part : parts) {
     const std::string_view name = part.name();
-    if (name == "link" || name == "joint") continue;
+    if (name == "link" || name == "joint" || name == "material") continue;
     if (name == "transmission") {
       readTransmission(part);
     } else if (name == "gazebo") {
       readGazebo(part);
-    } else if (name == "material") {
-      noteUnused(part, "colours are not used");
     } else if (name == "Include") {
       note(part, "<include> is not part of URDF: left out");
     } else {
