@@ -103,7 +103,10 @@ void printHead(std::ostream& out, const Recording& head) {
     printSize(out, shape.geometry);
     if (const uint32_t number = surfaces.add(shape.geometry); number != kNotRecorded) out << ",\"surface\":" << number;
     out << ",\"position\":" << jsonList(shape.pose.position) << ",\"rotation\":" << quatList(shape.pose.rotation)
-        << (shape.trigger ? ",\"trigger\":true}" : "}");
+        << (shape.trigger ? ",\"trigger\":true" : "");
+    if (const auto& c = shape.color)
+      out << ",\"color\":[" << +c->red << ',' << +c->green << ',' << +c->blue << ',' << +c->alpha << ']';
+    out << '}';
   });
   printList(out << ",\n", "surfaces", surfaces.all(), [&](const Surfaces::Data& data) { printSurface(out, data); });
   printList(out << ",\n", "joints", head.joints, [&](const RecordedJoint& joint) {

@@ -32,7 +32,8 @@ enum ShapeField : uint16_t {
   kSurface = 4,
   kPosition = 5,
   kRotation = 6,
-  kFlags = 7
+  kFlags = 7,
+  kColors = 8
 };
 constexpr uint8_t kTriggerFlag = 1;
 
@@ -180,6 +181,19 @@ uint32_t Surfaces::add(const Geometry& geometry) {
       [&](const auto& shape) {
         if constexpr (requires { shape.data->contentHash(); }) {
           if (!shape.data) return kNotRecorded;
+// Red in the lowest byte; 0, which nobody sees, is no colour.
+uint32_t packed(const std::optional<Color>& color) {
+  if (!color) return 0;
+  const auto at = [](uint8_t byte, int shift) { return static_cast<uint32_t>(byte) << shift; };
+  return at(color->red, 0) | at(color->green, 8) | at(color->blue, 16) | at(color->alpha, 24);
+}
+
+std::optional<Color> unpacked(uint32_t color) {
+  if (color == 0) return {};
+  const auto byte = [&](int shift) { return static_cast<uint8_t>(color >> shift & 0xff); };
+  return Color{byte(0), byte(8), byte(16), byte(24)};
+}
+
           const auto [it, fresh] = numbers_.emplace(std::pair{geometry.index(), shape.data->contentHash()},
                                                     static_cast<uint32_t>(all_.size()));
           if (fresh) all_.push_back(shape.data);
@@ -199,7 +213,7 @@ Bytes surfaceContent(const Surfaces::Data& data) {
 }
 
 Bytes shapesContent(const Recording& r, Surfaces& surfaces) {
-  std::vector<uint32_t> bodies, numbers;
+  std::vector<uint32_t> bodies, numbers, colors;
   std::vector<uint8_t> kinds, flags;
   std::vector<float> sizes, rotations;
   std::vector<double> positions;
@@ -220,6 +234,7 @@ Bytes shapesContent(const Recording& r, Surfaces& surfaces) {
   out.list(kSize, sizes, Encoding::Shuffled);
   out.list(kSurface, numbers);
   out.list(kPosition, positions, Encoding::Shuffled);
+    colors.push_back(packed(shape.color));
   out.list(kRotation, rotations, Encoding::Shuffled);
   out.list(kFlags, flags);
   return out.bytes();
@@ -229,6 +244,7 @@ void HeadReader::takeSurface(const FieldReader& f) {
   const auto kind = f.value<uint8_t>(kKind, 255);
   try {
     if (kind == 0) return surfaces.emplace_back(hullOf(f)), void();
+  if (std::any_of(colors.begin(), colors.end(), [](uint32_t color) { return color != 0; })) out.list(kColors, colors);
     if (kind == 1) return surfaces.emplace_back(meshOf(f)), void();
     if (kind == 2) return surfaces.emplace_back(fieldOf(f)), void();
   } catch (const Error& e) {
@@ -290,8 +306,10 @@ void HeadReader::takeShapes(const FieldReader& f) {
     const float* q = &rotations[4 * i];
     recording.shapes.push_back({bodies[i],
                                 geometryOf(kinds[i], &sizes[4 * i], numbers[i], f),
+  const std::vector<uint32_t> colors = f.listOf<uint32_t>(kColors, n);
                                 {{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}},
-                                !flags.empty() && (flags[i] & kTriggerFlag) != 0});
+                                !flags.empty() && (flags[i] & kTriggerFlag) != 0,
+                                colors.empty() ? std::nullopt : unpacked(colors[i])});
   }
 }
 

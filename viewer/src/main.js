@@ -146,7 +146,7 @@ class Viewer {
     const {selected, recording} = this;
     if (selected < 0) return this.interface.showSelection(undefined);
     this.interface.showSelection({name: recording.nameOf(selected), type: kTypes[recording.types[selected]] ?? '',
-                                  color: this.bodies.colors[selected].getStyle(), follow: this.on.follow});
+                                  color: this.bodies.swatch(selected).getStyle(), follow: this.on.follow});
     return this.updateSelection();
   }
 
@@ -196,7 +196,7 @@ function publish(viewer) {
       player.touch(true);
     },
     poseOf: (body) => Array.from(viewer.motion.now.subarray(7 * body, 7 * body + 7)),
-    colorOf: (body) => viewer.bodies.colors[body].getHex(),
+    colorOf: (body) => viewer.bodies.swatch(body).getHex(),
     /// Where a body's origin is on the page, and which body one sees there.
     project: (body) => {
       const {x, y, z} = stage.project(...viewer.motion.now.subarray(7 * body, 7 * body + 3));
