@@ -15,6 +15,7 @@ import {Stage} from './stage.js';
 import * as THREE from 'three';
 import style from './style.css';
 
+const kRedrawAfter = 100;  // ms
 const kTypes = ['static', 'kinematic', 'dynamic'];
 
 class Viewer {
@@ -134,6 +135,17 @@ class Viewer {
     this.player.touch(true);
   }
 
+  /// A frame that was asked for is here.
+  arrived(frame) {
+    this.player.arrived();
+    if (!this.marks.takesIntoPath(frame) || this.pathTimer) return;
+    this.pathTimer = setTimeout(() => {  // many come at once
+      this.pathTimer = undefined;
+      this.marks.drawPath();
+      this.player.touch();
+    }, kRedrawAfter);
+  }
+
   hover(body) {
     if (body === this.hovered) return;
     this.hovered = body;
@@ -175,6 +187,8 @@ function publish(viewer) {
     recording: {bodies: recording.bodyCount, get frames() { return recording.frameCount; }, names: recording.names},
     get finished() { return recording.finished !== false; },
     has: (frame) => recording.has(frame),
+    get framesHeld() { return recording.frames?.size ?? recording.frameCount; },
+    get pathLines() { return viewer.marks.path.object.geometry.instanceCount; },
     meshes: () => viewer.bodies.sets.map(({mesh, bodies}) => ({
       name: mesh.name, count: bodies.length, triangles: (mesh.geometry.index ?? mesh.geometry.attributes.position).count / 3,
       transparent: mesh.material.transparent})),

@@ -122,6 +122,14 @@ export class Recording {
     return true;
   }
 
+  /// The same, without asking for anything.
+  held() {
+    return true;
+  }
+
+  /// Asks for single frames.
+  request() {}
+
   /// Poses of a frame, 7 numbers a body: x y z qx qy qz qw about the origin. `stills` writes those that never move.
   poses(frame, out, stills) {
     if (stills) this.stillPoses(out);
