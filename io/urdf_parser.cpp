@@ -17,7 +17,10 @@ const std::set<std::string_view> kPartsOfLink = {"inertial", "collision", "visua
 
 // As the file has it (Source hides its includes).
 std::string tagOf(Elem elem) {
-  return elem.name() == "Include" ? "<include>" : "<" + std::string(elem.name().substr(0, 60)) + ">";
+  if (elem.name() == "Include") return "<include>";
+  std::string tag(elem.name().substr(0, 60));
+  tag.insert(tag.begin(), '<');
+  return tag + '>';
 }
 
 }  // namespace
@@ -183,7 +186,7 @@ void Parser::readGazebo(Elem elem) {
   for (const Elem& part : source_.children(elem)) {
     const std::string_view name = part.name();
     if (link == linksByName_.end() || (name != "mu1" && name != "mu2")) {
-      out_.notes.add(source_.where(elem), "<gazebo> with " + tagOf(part) + ": not used");
+      out_.notes.add(source_.where(elem), tagOf(part) + ": not used", "gazebo");
       continue;
     }
     std::vector<double> value;
