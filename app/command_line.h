@@ -10,15 +10,16 @@ namespace avbd::cli {
 enum ExitStatus : int {
   kExitDone = 0,
   kExitCheckFailed = 1,  ///< of `bench` and `verify`
-  kExitBadInput = 2,     ///< one message on `err`; nothing was created
-  kExitNonFinite = 3,    ///< the simulation left the finite numbers; nothing was created
+  kExitBadInput = 2,     ///< one message on `err`; nothing was created, but for a recording that had begun
+  kExitNonFinite = 3,    ///< the simulation left the finite numbers; nothing was created but the recording up to there
   kExitStopped = 130,    ///< by requestStop()
 };
 
 /// Runs `avbd` with these arguments (without the program's name) and returns its exit status. Throws nothing.
 int runCommandLine(std::vector<std::string> args, std::ostream& out, std::ostream& err);
 
-/// Ends what is running as soon as it can, without leaving files; may be called by a signal.
+/// Ends what is running as soon as it can; may be called by a signal. Leaves no files but the recording of `--record`,
+/// which is closed and holds all frames up to there.
 void requestStop() noexcept;
 
 }  // namespace avbd::cli

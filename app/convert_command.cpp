@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "app/command_line.h"
 #include "app/commands.h"
@@ -17,10 +20,14 @@ namespace {
 
 constexpr double kPagePoses = 2.4e6;  // of all bodies in all frames: about 48 MB of page
 
-void exportPage(RecordReader& reader, std::ostream& out) {
-  if (reader.frameCount() == 0) throw BadInput("--html: the recording holds no complete frame");
+std::vector<std::string> exportPage(RecordReader& reader, std::ostream& out) {
+  std::vector<std::string> leftOut;
   const double poses = static_cast<double>(reader.frameCount()) * static_cast<double>(reader.head().bodies.size());
-  writePage(out, reader.readAll(static_cast<uint64_t>(std::max(1.0, std::ceil(poses / kPagePoses)))));
+  const auto stride = static_cast<uint64_t>(std::max(1.0, std::ceil(poses / kPagePoses)));
+  const Recording all = reader.readAll(stride, &leftOut);
+  if (all.frames.empty()) throw BadInput("--html: the recording holds no complete frame");
+  writePage(out, all);
+  return leftOut;
 }
 
 }  // namespace
@@ -29,7 +36,7 @@ int convertCommand(const ConvertArguments& a, std::ostream& out, std::ostream& e
   RecordReader reader(a.file);
   struct Output {
     std::unique_ptr<OutputFile> file;
-    std::function<void(RecordReader&, std::ostream&)> write;
+    std::function<std::vector<std::string>(RecordReader&, std::ostream&)> write;
   };
   std::vector<Output> outputs;
   const auto add = [&](const char* option, const std::string& name, auto write) {
@@ -41,15 +48,20 @@ int convertCommand(const ConvertArguments& a, std::ostream& out, std::ostream& e
       if (other.file->target() == file->target()) throw BadInput(name + ": is named twice");
     outputs.push_back({std::move(file), write});
   };
-  add("--csv", a.csv, [](RecordReader& r, std::ostream& o) { exportCsv(r, o); });
-  add("--json", a.json, [](RecordReader& r, std::ostream& o) { exportJson(r, o); });
-  add("--mcap", a.mcap, [](RecordReader& r, std::ostream& o) { exportMcap(r, o); });
+  add("--csv", a.csv, [](RecordReader& r, std::ostream& o) { return exportCsv(r, o); });
+  add("--json", a.json, [](RecordReader& r, std::ostream& o) { return exportJson(r, o); });
+  add("--mcap", a.mcap, [](RecordReader& r, std::ostream& o) { return exportMcap(r, o); });
   add("--html", a.html, exportPage);
   if (outputs.empty()) throw BadInput("convert: nothing to write: give --csv, --json, --mcap or --html FILE");
-  for (const std::string& note : reader.info().notes) err << "avbd: " << a.file << ": " << note << "\n";
+  std::set<std::string> said;
+  const auto say = [&](const std::vector<std::string>& notes) {
+    for (const std::string& note : notes)
+      if (said.insert(note).second) err << "avbd: " << a.file << ": " << note << "\n";
+  };
+  say(reader.info().notes);
   for (Output& output : outputs) {
     throwIfStopped();
-    output.write(reader, output.file->stream());
+    say(output.write(reader, output.file->stream()));
   }
   for (Output& output : outputs) output.file->finish();
   for (Output& output : outputs) output.file->commit();

@@ -40,7 +40,8 @@ MeshInfo meshInfo(const std::string& file) {
 
 int infoCommand(const InfoArguments& a, std::ostream& out) {
   const std::string kind = kindOf(a.file);
-  const bool isMesh = kind == ".obj" || kind == ".stl" || kind == ".msh", isRecording = kind == ".avbd";
+  const bool isMesh = kind == ".obj" || kind == ".stl" || kind == ".msh",
+             isRecording = kind == ".avbd" || avbd::isRecording(a.file);
   if ((isMesh || isRecording) && a.keyframe) throw BadInput("--keyframe " + *a.keyframe + ": " + a.file + " has none");
   if (isMesh) {
     print(meshInfo(a.file), a.json, out);

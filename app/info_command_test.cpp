@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kRobot = R"(<mujoco model="robot"><option timestep="0.01" gravity="0 0 -5"/>
   <asset><mesh name="tetra" vertex="0 0 0 2 0 0 0 1 0 0 0 3"/></asset><worldbody><geom type="plane" size="1 1 1"/>
-  <body name="a" pos="10 0 0"><freejoint/><geom size=".5" mass="2"/><geom type="box" size="1 2 3" mass="3"/>
+  <body name="a" pos="10 0 0"><freejoint/><geom size=".5" mass="2" rgba="1 0 0 1"/><geom type="box" size="1 2 3" mass="3"/>
     <body pos="0 0 1"><joint type="ball"/><geom type="mesh" mesh="tetra" mass="1"/></body></body>
   <body mocap="true" pos="0 0 -1"/></worldbody><actuator/><keyframe><key name="home"/></keyframe></mujoco>)";
 
@@ -42,6 +42,7 @@ TEST(InfoCommand, AModel) {
   EXPECT_EQ(json["dynamic"], 2);
   EXPECT_EQ(json["shapes"]["hull"], 1);
   EXPECT_EQ(json["hull_vertices"], 4);
+  EXPECT_EQ(json["coloured_shapes"], 1);
   EXPECT_EQ(json["joints"]["ball"], 1);
   EXPECT_NEAR(json["mass"].get<double>(), 6, 1e-5);
   // The box from x = 9, y = -2, z = -3; the hull up to x = 12 and z = 4.

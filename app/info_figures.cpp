@@ -107,6 +107,10 @@ ModelInfo infoOf(const Model& model) {
   info.gravity = world.definition().gravity;
   info.keyframes = model.keyframes;
   info.notes = model.notes;
+  for (const NamedBody& body : model.bodies) {
+    info.coloredShapes += static_cast<size_t>(
+        std::count_if(body.colors.begin(), body.colors.end(), [](const auto& color) { return color.has_value(); }));
+  }
   for (const BodyId body : world.bodies()) {
     const BodyType type = world.type(body);
     ++(type == BodyType::Dynamic ? info.dynamic : type == BodyType::Kinematic ? info.kinematic : info.fixed);
@@ -128,11 +132,12 @@ ReportLines reportLines(const ModelInfo& info) {
                      std::to_string(info.fixed) + " static"},
       {"shapes", countsText(info.shapes, shapeKindName)},
   };
+  if (info.coloredShapes > 0) lines.emplace_back("coloured", std::to_string(info.coloredShapes) + " shapes");
   if (info.hullVertices > 0) lines.emplace_back("hull vertices", std::to_string(info.hullVertices));
   if (info.meshTriangles > 0) lines.emplace_back("mesh triangles", std::to_string(info.meshTriangles));
   if (info.heightSamples > 0) lines.emplace_back("heights", std::to_string(info.heightSamples));
   lines.emplace_back("joints", countsText(info.joints, jointKindName));
-  lines.emplace_back("mass", digits(info.mass, 6) + " kg");
+  lines.emplace_back("mass", digits(info.mass, 6) + " kg (of the dynamic bodies)");
   lines.emplace_back("bounds", boundsText(info.bounds));
   lines.emplace_back("step", digits(info.dt, 6) + " s");
   lines.emplace_back("gravity", vectorText(toDouble(info.gravity)) + " m/s^2");

@@ -26,6 +26,7 @@ struct ModelInfo {
   std::string name;
   size_t dynamic = 0, kinematic = 0, fixed = 0;
   std::array<size_t, kShapeKinds> shapes{};
+  size_t coloredShapes = 0;                                       ///< those that the file gives a colour
   size_t hullVertices = 0, meshTriangles = 0, heightSamples = 0;  ///< of all shapes; shared ones once for each
   std::array<size_t, kJointKinds> joints{};
   double mass = 0;  ///< [kg] of all dynamic bodies

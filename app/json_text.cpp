@@ -78,6 +78,7 @@ std::string jsonText(const ModelInfo& info) {
                {"kinematic", info.kinematic},
                {"static", info.fixed},
                {"shapes", counts(info.shapes, shapeKindName)},
+               {"coloured_shapes", info.coloredShapes},
                {"hull_vertices", info.hullVertices},
                {"mesh_triangles", info.meshTriangles},
                {"heights", info.heightSamples},

@@ -84,6 +84,8 @@ TEST(RecordCommand, DamageIsSaidAndTheRestConverted) {
   EXPECT_NE(run.err.find("the end is missing"), std::string::npos) << run.err;
   const auto lines = describeRecording(file);
   EXPECT_EQ(lines[0].second, "balls");
+  EXPECT_NE(std::find(lines.begin(), lines.end(), std::pair<std::string, std::string>("run: scene", "balls")),
+            lines.end());
   EXPECT_TRUE(isRecording(file));
   EXPECT_FALSE(isRecording(scene));
 }

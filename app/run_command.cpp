@@ -1,9 +1,12 @@
 // `avbd run`: simulate, write, report, and show the run in a browser as it happens.
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <thread>
 
 #include "app/command_line.h"
@@ -30,21 +33,44 @@ double timedStep(Model& model, int64_t step, double dt) {
   }
 }
 
-/// A page that shows the run's recording while it grows.
+/// An empty file of a name that nobody can guess; it vanishes with this.
+class TemporaryFile {
+ public:
+  TemporaryFile() {
+    constexpr int kEnding = 5;
+    std::string pattern = (std::filesystem::temp_directory_path() / "avbd_live_XXXXXX.avbd").string();
+    const int file = mkstemps(pattern.data(), kEnding);
+    if (file < 0) throw BadInput("--live " + pattern + ": " + std::strerror(errno));
+    close(file);
+    path_ = pattern;
+  }
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// A page that shows the run's recording while it grows. Made before any output, so that a port that is taken costs no
+/// file; what it shows is the recording that the user asked for, or one that vanishes with the page.
 class LivePage {
  public:
-  /// The recording that the page shows; it vanishes with the run unless the user asked for it.
-  static std::string fileOf(const RunArguments& a) {
-    if (!a.live || !a.record.empty()) return a.record;
-    return (std::filesystem::temp_directory_path() / ("avbd_live_" + std::to_string(getpid()) + ".avbd")).string();
+  explicit LivePage(const RunArguments& a) : server_(static_cast<uint16_t>(a.port)) {
+    if (a.record.empty()) temporary_.emplace();
+    file_ = temporary_ ? temporary_->path() : a.record;
   }
-  LivePage(const RunArguments& a, const std::string& file, std::ostream& err)
-      : temporary_(a.record.empty() ? file : ""), server_(file, static_cast<uint16_t>(a.port)), begin_(Clock::now()) {
+
+  const std::string& file() const { return file_; }
+  /// The recording has begun.
+  void show(std::ostream& err) {
+    server_.show(file_);
+    begin_ = Clock::now();
     err << "live at " << server_.url() << "; Ctrl-C ends it" << std::endl;
-  }
-  ~LivePage() {
-    std::error_code ignored;
-    if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
   }
 
   /// Lets the simulated time not run ahead of the clock.
@@ -66,21 +92,22 @@ class LivePage {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
 
-  std::string temporary_;
+  std::optional<TemporaryFile> temporary_;
+  std::string file_;
   LiveServer server_;
-  Clock::time_point begin_;
+  Clock::time_point begin_{};
 };
 
 }  // namespace
 
 int runCommand(const RunArguments& asked, std::ostream& out, std::ostream& err) {
   RunArguments a = asked;
-  a.record = LivePage::fileOf(asked);
   Model model = loadModel(a);
   const Plan plan = planRun(a, model);
+  std::optional<LivePage> page;
+  if (a.live) a.record = page.emplace(asked).file();
   Outputs outputs(a, model, plan);
-  std::unique_ptr<LivePage> page;
-  if (a.live) page = std::make_unique<LivePage>(asked, a.record, err);
+  if (page) page->show(err);
   Clockwork clock;
   {
     Progress progress(err);

@@ -102,7 +102,7 @@ bool readFrames(RecordReader& reader) {
   bool all = true;
   double last = -INFINITY;
   for (uint64_t i = 0; i < std::min(reader.frameCount(), kMostFrames); ++i) {
-    require(reader.times()[i] >= last, "times that do not ascend");
+    require(std::isfinite(reader.times()[i]) && reader.times()[i] >= last, "times that do not ascend");
     last = reader.times()[i];
     try {
       checkFrame(reader.frame(i), reader.head());

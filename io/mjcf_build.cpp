@@ -148,8 +148,7 @@ void Builder::noteWelds() {
       continue;
     }
     for (const Joint& joint : body.joints) {
-      const std::string name = joint.name.empty() ? "joint" : "joint \"" + joint.name + "\"";
-      notes_.add(joint.place, name + " (" + kKinds[static_cast<size_t>(joint.kind)] + "): welded");
+      notes_.add(joint.where, std::string(kKinds[static_cast<size_t>(joint.kind)]) + " joint: welded");
     }
     if (rootOf(i) != i) {
       const std::string& root = in_.bodies[rootOf(i)].name;
@@ -261,7 +260,9 @@ void Builder::addBody(size_t root) {
   } catch (const Error& error) {
     throw FileError(whereOf(root, error) + ": " + error.what());
   }
-  model_.bodies.push_back({ids_[root], nameOf(root)});
+  std::vector<std::optional<Color>> colors;
+  for (const Geom* geom : geoms_[root]) colors.push_back(geom->color);
+  model_.bodies.push_back({ids_[root], nameOf(root), std::move(colors)});
 }
 
 void Builder::addBallJoint(size_t index) {

@@ -2,6 +2,7 @@
 #include "io/mjcf_defaults.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "io/mjcf_schema.h"
 
@@ -19,6 +20,15 @@ void noteUse(const XmlSource& source, Elem elem, std::string_view element, const
     return;
   }
   notes.add(source.where(elem), "attribute " + std::string(attr.name) + " is not used", element);
+}
+
+// What an element can only say of itself. For meshes that is all their data, as in MuJoCo: every mesh of the class
+// would hold a copy.
+bool isOwnOnly(std::string_view element, std::string_view attribute) {
+  constexpr std::string_view kMeshData[] = {"file",     "content_type", "vertex",  "face",        "normal",
+                                            "texcoord", "refpos",       "refquat", "smoothnormal"};
+  if (attribute == "name" || attribute == "class") return true;
+  return element == "mesh" && std::find(std::begin(kMeshData), std::end(kMeshData), attribute) != std::end(kMeshData);
 }
 
 }  // namespace
@@ -42,8 +52,11 @@ void checkAttributes(const XmlSource& source, Elem elem, std::string_view elemen
 int Defaults::open(Elem elem, int parent) {
   const std::string name(elem.get("class"));
   const bool top = parent < 0;
-  if (top && (name.empty() || name == "main")) return kMain;
-  if (top) source_.fail(elem, "class", name, "the class of a top-level default must be main or not given");
+  if (top) {
+    // MuJoCo gives its one top class this name; here it keeps the names that it had before, too.
+    if (byName_.emplace(name.empty() ? "main" : name, kMain).first->second == kMain) return kMain;
+    source_.fail(elem, "class", name, "a default class of this name exists");
+  }
   if (name.empty()) source_.fail(elem, "class is missing: a default inside a default must name its class");
   if (classes_.size() >= kMostClasses) source_.fail(elem, "more than 10000 default classes");
   const int index = static_cast<int>(classes_.size());
@@ -84,8 +97,7 @@ void Defaults::readSettings(Elem elem, Class& cls, Notes& notes) {
     for (const pugi::xml_attribute a : child.node.attributes()) {
       const Attr attr{a.name(), a.value(), child};
       if (!findRule(name, attr.name)) continue;
-      if (attr.name == "name" || attr.name == "class")
-        source_.fail(child, attr.name, attr.value, "not allowed in a default");
+      if (isOwnOnly(name, attr.name)) source_.fail(child, attr.name, attr.value, "not allowed in a default");
       const auto it = std::find_if(known.begin(), known.end(), [&](const Attr& k) { return k.name == attr.name; });
       if (it != known.end()) {
         *it = attr;
@@ -99,6 +111,7 @@ void Defaults::readSettings(Elem elem, Class& cls, Notes& notes) {
 int Defaults::find(Elem elem, std::string_view attribute) const {
   const std::string_view name = elem.get(std::string(attribute).c_str());
   const auto it = byName_.find(name);
+  if (it == byName_.end() && name == "main") return kMain;
   if (it == byName_.end()) source_.fail(elem, attribute, name, "no default class has this name");
   return it->second;
 }

@@ -39,7 +39,7 @@ class Defaults {
 
   const XmlSource& source_;
   std::vector<Class> classes_;
-  std::map<std::string, int, std::less<>> byName_{{"main", kMain}};
+  std::map<std::string, int, std::less<>> byName_;  // "main" is kMain where no class has that name
 };
 
 }  // namespace avbd::mjcf

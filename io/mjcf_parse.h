@@ -3,10 +3,12 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/color.h"
 #include "io/file_error.h"
 #include "io/mjcf_math.h"
 
@@ -53,10 +55,11 @@ struct Geom {
   int asset = -1;        ///< of Description::meshes or heights
   bool isShell = false;  ///< meshes: mass is that of a surface
   int condim = 3, priority = 0, contype = 1, conaffinity = 1, group = 0;
+  std::optional<Color> color;  ///< its own, or its material's
 };
 
 struct Joint {
-  std::string name, where, place;  ///< place: `tower.xml:12`
+  std::string name, where;
   JointKind kind = JointKind::Hinge;
   Vec3d pos;            ///< in the body's frame
   Vec3d axis{0, 0, 1};  ///< unit, in the body's frame

@@ -130,9 +130,24 @@ TEST(MjcfParse, DrawingIsNotedAtMostOnce) {
       "<worldbody><light/><camera/><site/><geom size='1' rgba='1 0 0 1' material='m' group='1' user='1 2 "
       "3'/></worldbody>");
   // One note for each kind of asset.
-  ASSERT_EQ(d.notes.size(), 2u) << d.notes[0];
+  ASSERT_EQ(d.notes.size(), 1u) << d.notes[1];
   EXPECT_EQ(d.notes[0], "t.xml:1: texture \"t\": not used: only for drawing (and 1 more)");
-  EXPECT_EQ(d.notes[1], "t.xml:1: material \"m\": not used: only for drawing");
+}
+
+TEST(MjcfParse, ColorsAreTheGeomsOrTheMaterials) {
+  const Description d = parse(
+      "<default><geom rgba='0 0 1 1'/><default class='q'><material rgba='0 1 0 .5'/><geom rgba='.5 .5 .5 1'/></default>"
+      "</default><asset><texture name='t' builtin='flat'/><material name='red' rgba='1 0 0 1'/><material name='white'/>"
+      "<material name='q' class='q'/><material name='wood' texture='t'/></asset><worldbody><geom size='1'/>"
+      "<geom size='1' material='red'/><geom size='1' rgba='0 .2 3 -1'/><geom size='1' class='q'/>"
+      "<geom size='1' class='q' material='red'/><geom size='1' class='q' material='white'/>"
+      "<geom size='1' class='q' material='q'/><geom size='1' class='q' material='wood'/></worldbody>");
+  const std::optional<Color> expected[] = {Color{0, 0, 255},      Color{0, 0, 255}, Color{0, 51, 255, 0},
+                                           Color{128, 128, 128},  Color{255, 0, 0}, Color{255, 255, 255},
+                                           Color{0, 255, 0, 128}, std::nullopt};
+  const std::vector<Geom>& geoms = d.bodies.at(0).geoms;
+  ASSERT_EQ(geoms.size(), std::size(expected));
+  for (size_t i = 0; i < geoms.size(); ++i) EXPECT_EQ(geoms[i].color, expected[i]) << i;
 }
 
 TEST(MjcfParse, KeyframesAreNotUsedWherePartsAreLeftOut) {

@@ -153,6 +153,7 @@ void Parser::readAssets(Elem elem) {
     }
     if (kind == "mesh") readMesh(child);
     if (kind == "hfield") readHeights(child);
+    if (kind == "material") readMaterial(child);
   }
 }
 

@@ -65,13 +65,15 @@ class Parser {
   // mjcf_parser_assets.cpp: meshes and height fields
   std::string assetName(const Attributes& a) const;
   std::filesystem::path assetPath(const Attributes& a);
+  void charge(const Attributes& a, std::string_view attribute, uintmax_t bytes);
   void readMesh(Elem elem);
+  void readMaterial(Elem elem);
   void readHeights(Elem elem);
   void heightsFromFile(const Attributes& a, HeightAsset& out);
   void heightsFromText(const Attributes& a, HeightAsset& out);
   int meshNamed(const Attributes& a);
   void loadMesh(const Attributes& a, MeshAsset& out);
-  void inlineMesh(const Attributes& a, MeshAsset& out) const;
+  void inlineMesh(const Attributes& a, MeshAsset& out);
   void placeMesh(const Attributes& a, MeshAsset& out) const;
   void weighMesh(const Attributes& a, MeshAsset& out);
 
@@ -95,6 +97,7 @@ class Parser {
   void applyFromTo(const Attributes& a, Geom& geom);
   void readSurface(const Attributes& a, Geom& geom);
   void readGeomMass(const Attributes& a, Geom& geom);
+  void readColor(const Attributes& a, Geom& geom);
   void checkReference(const Attributes& a, std::string_view attribute);
   void readAssetShape(const Attributes& a, Geom& geom);
 
@@ -128,6 +131,8 @@ class Parser {
   std::set<std::string, std::less<>> jointNames_, equalityNames_, keyNames_, pairNames_, excludeNames_;
   std::map<std::string, std::set<std::string, std::less<>>, std::less<>> assets_;  // names by element
   std::vector<MeshSource> meshSources_;                                            // of out_.meshes
+  std::map<std::string, size_t, std::less<>> meshByName_, heightsByName_;          // into out_.meshes and heights
+  std::map<std::string, std::optional<Color>, std::less<>> materials_;
   size_t assetBytes_ = 0;
   bool coordinatesMissing_ = false;  // something left out would have brought coordinates of its own
   bool equalitiesOff_ = false;

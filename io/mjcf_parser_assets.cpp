@@ -58,9 +58,13 @@ fs::path Parser::assetPath(const Attributes& a) {
   if (!fs::is_regular_file(status)) a.fail("file", "not a regular file (" + path.string() + ")");
   const auto size = fs::file_size(path, error);
   if (error) a.fail("file", "cannot be read (" + path.string() + ")");
-  if (size > kMaxAssetBytes - assetBytes_) a.fail("file", "the model's meshes and height fields exceed 256 MiB");
-  assetBytes_ += size;
+  charge(a, "file", size);
   return path;
+}
+
+void Parser::charge(const Attributes& a, std::string_view attribute, uintmax_t bytes) {
+  if (bytes > kMaxAssetBytes - assetBytes_) a.fail(attribute, "the model's meshes and height fields exceed 256 MiB");
+  assetBytes_ += bytes;
 }
 
 void Parser::readMesh(Elem elem) {
@@ -77,18 +81,17 @@ void Parser::readMesh(Elem elem) {
   if (a.has("maxhullvert") && mesh.mostVertices != -1 && mesh.mostVertices < 4) {
     a.fail("maxhullvert", "must be -1, or 4 or more");
   }
+  meshByName_.emplace(mesh.name, out_.meshes.size());
   out_.meshes.push_back(std::move(mesh));
   meshSources_.push_back({std::move(a)});
 }
 
 int Parser::meshNamed(const Attributes& a) {
-  const std::string name = a.requiredText("mesh");
-  const auto it =
-      std::find_if(out_.meshes.begin(), out_.meshes.end(), [&](const MeshAsset& m) { return m.name == name; });
-  if (it == out_.meshes.end()) a.fail("mesh", "no mesh of this name in asset");
-  const size_t index = static_cast<size_t>(it - out_.meshes.begin());
+  const auto it = meshByName_.find(a.requiredText("mesh"));
+  if (it == meshByName_.end()) a.fail("mesh", "no mesh of this name in asset");
+  const size_t index = it->second;
   MeshSource& from = meshSources_[index];
-  if (!from.isRead) loadMesh(from.attributes, *it);
+  if (!from.isRead) loadMesh(from.attributes, out_.meshes[index]);
   from.isRead = true;
   return static_cast<int>(index);
 }
@@ -108,13 +111,15 @@ void Parser::loadMesh(const Attributes& a, MeshAsset& out) {
   weighMesh(a, out);
 }
 
-void Parser::inlineMesh(const Attributes& a, MeshAsset& out) const {
+void Parser::inlineMesh(const Attributes& a, MeshAsset& out) {
   const std::vector<double> numbers = a.numbers("vertex", 0, kMany);
   if (numbers.size() % 3 != 0 || numbers.size() < 12)
     a.fail("vertex", "must be 3 numbers for each of 4 or more vertices");
+  charge(a, "vertex", numbers.size() / 3 * sizeof(Vec3d));
   for (size_t i = 0; i < numbers.size(); i += 3) out.vertices.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
   const std::vector<double> faces = a.numbers("face", 0, kMany);
   if (faces.size() % 3 != 0) a.fail("face", "must be 3 numbers for each triangle");
+  charge(a, "face", faces.size() * sizeof(uint32_t));
   for (size_t i = 0; i < faces.size(); i += 3) {
     std::array<uint32_t, 3> triangle;
     for (size_t k = 0; k < 3; ++k) {
@@ -183,6 +188,19 @@ void Parser::weighMesh(const Attributes& a, MeshAsset& out) {
   out.solid = rule == 3 ? out.shell : solidMass(out, rule == 1);
 }
 
+// What has only a texture has no colour of its own.
+void Parser::readMaterial(Elem elem) {
+  checkAttributes(source_, elem, "material", notes_);
+  const Attributes a = defaults_.resolve(elem, "material", Defaults::kMain);
+  std::optional<Color>& color = materials_[a.text("name")];
+  const std::vector<double> rgba = a.numbers("rgba", 4, 4);
+  if (!rgba.empty()) {
+    color = colorOf(rgba[0], rgba[1], rgba[2], rgba[3]);
+  } else if (!a.has("texture")) {
+    color = colorOf(1, 1, 1, 1);
+  }
+}
+
 void Parser::readHeights(Elem elem) {
   const Attributes a = own(elem, "hfield");
   HeightAsset out;
@@ -200,6 +218,7 @@ void Parser::readHeights(Elem elem) {
   } else {
     heightsFromText(a, out);
   }
+  heightsByName_.emplace(out.name, out_.heights.size());
   out_.heights.push_back(std::move(out));
 }
 
@@ -212,10 +231,7 @@ void Parser::heightsFromText(const Attributes& a, HeightAsset& out) {
   out.rows = side("nrow");
   out.columns = side("ncol");
   const size_t rows = static_cast<size_t>(out.rows), columns = static_cast<size_t>(out.columns);
-  if (rows * columns * sizeof(float) > kMaxAssetBytes - assetBytes_) {
-    a.fail("nrow", "the model's meshes and height fields exceed 256 MiB");
-  }
-  assetBytes_ += rows * columns * sizeof(float);
+  charge(a, "nrow", rows * columns * sizeof(float));
   out.heights.assign(rows * columns, 0);
   if (!a.has("elevation")) return;  // flat, for a program to fill
   const std::vector<double> values = a.numbers("elevation", 0, kMany);

@@ -148,7 +148,6 @@ void Parser::readJoint(Elem elem, const OpenElem& in, bool isFree) {
   if (body.mocap) source_.fail(elem, "a mocap body cannot have joints");
   Joint joint;
   joint.where = source_.where(elem);
-  joint.place = source_.place(elem);
   joint.name = nameOnce(a, jointNames_);
   joint.kind =
       isFree ? JointKind::Free : static_cast<JointKind>(a.keyword("type", {"free", "ball", "slide", "hinge"}, 3));

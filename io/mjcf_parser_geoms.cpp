@@ -44,6 +44,7 @@ void Parser::readGeom(Elem elem, const OpenElem& in) {
   readShape(a, geom);
   geom.pose = in.frame * geom.pose;
   readSurface(a, geom);
+  readColor(a, geom);
   readGeomMass(a, geom);
   out_.bodies[static_cast<size_t>(in.body)].geoms.push_back(std::move(geom));
 }
@@ -90,11 +91,9 @@ void Parser::readAssetShape(const Attributes& a, Geom& geom) {
   geom.pose = pose(a);
   geom.isShell = a.flag("shellinertia", false);
   if (geom.kind == GeomKind::HeightField) {
-    const std::string name = a.requiredText("hfield");
-    const auto& all = out_.heights;
-    const auto it = std::find_if(all.begin(), all.end(), [&](const HeightAsset& h) { return h.name == name; });
-    if (it == all.end()) a.fail("hfield", "no hfield of this name in asset");
-    geom.asset = static_cast<int>(it - all.begin());
+    const auto it = heightsByName_.find(a.requiredText("hfield"));
+    if (it == heightsByName_.end()) a.fail("hfield", "no hfield of this name in asset");
+    geom.asset = static_cast<int>(it->second);
     return;
   }
   if (a.has("fromto")) a.fail("fromto", "not allowed for a mesh");
@@ -151,6 +150,17 @@ void Parser::readSurface(const Attributes& a, Geom& geom) {
   geom.contype = a.integer("contype", 1);
   geom.conaffinity = a.integer("conaffinity", 1);
   geom.group = a.integer("group", 0);
+}
+
+// MuJoCo's rule: a material gives way to any colour of the geom but this grey, which stands for none.
+void Parser::readColor(const Attributes& a, Geom& geom) {
+  const std::vector<double> rgba = a.numbers("rgba", 4, 4);
+  const bool isSet = !rgba.empty() && rgba != std::vector<double>{0.5, 0.5, 0.5, 1};
+  if (const auto material = materials_.find(a.text("material")); !isSet && material != materials_.end()) {
+    geom.color = material->second;
+  } else if (!rgba.empty()) {
+    geom.color = colorOf(rgba[0], rgba[1], rgba[2], rgba[3]);
+  }
 }
 
 void Parser::readGeomMass(const Attributes& a, Geom& geom) {

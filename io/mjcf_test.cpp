@@ -141,7 +141,7 @@ TEST(Mjcf, BodiesWithoutJointsOfOursArePartOfTheirParent) {
   expectVector(toDouble(model.world.centerOfMass(a)), {1.5, 0, 0});
   EXPECT_NEAR(model.world.inertia(a).zz, 4 * 0.4 * 0.25 + 2.25 + 3 * 0.25, 1e-5);
   EXPECT_EQ(model.world.shapes(a).size(), 2u);
-  EXPECT_TRUE(hasNote(model, "t.xml:1: joint \"x\" (hinge): welded"));
+  EXPECT_TRUE(hasNote(model, "t.xml:1: joint \"x\": hinge joint: welded"));
   EXPECT_TRUE(hasNote(model, "body \"b\": part of body a"));
   EXPECT_TRUE(hasNote(model, "body \"s\": part of body world"));
 }

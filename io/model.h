@@ -3,14 +3,19 @@
 
 #include <avbd/avbd.h>
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "io/color.h"
 
 namespace avbd {
 
 struct NamedBody {
   BodyId id;
   std::string name;  ///< the file's name; "body_3" where the file gives none
+  /// Of its shapes, in the order of World::shapes(id); empty: none is given.
+  std::vector<std::optional<Color>> colors{};
 };
 
 struct Model {

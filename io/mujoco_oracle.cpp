@@ -67,6 +67,16 @@ INSTANTIATE_TEST_SUITE_P(
            <worldbody><body childclass="a"><freejoint/><geom/><geom class="b"/><geom class="main"/>
              <body childclass="b"><joint/><geom/><body><joint type="hinge"/><geom/><geom class="c" mass="1"/></body></body>
              <body><geom/><joint class="b" pos="0 1 0"/></body></body></worldbody>)",
+        // a class of the top has a name, or several, and then "main" is any other's
+        R"(<default class="robot"><geom size=".2"/><default class="b"><geom type="box" size=".1 .2 .3"/></default></default>
+           <worldbody><body childclass="robot"><freejoint/><geom/><geom class="b"/></body><body><freejoint/><geom/></body>
+           <body childclass="b"><freejoint/><geom/><geom class="robot"/></body></worldbody>)",
+        R"(<default class="robot"><geom size=".2"/><default class="main"><geom size=".5"/></default></default>
+           <worldbody><body><freejoint/><geom/><geom class="main"/><geom class="robot"/></body></worldbody>)",
+        R"(<default><geom size=".2" density="500"/></default><default class="robot"><geom type="box" size=".1 .2 .3"/></default>
+           <worldbody><body><freejoint/><geom/><geom class="robot"/></body></worldbody>)",
+        R"(<default class="a"><geom size=".2"/></default><default class="b"><geom density="500"/></default>
+           <worldbody><body><freejoint/><geom/><geom class="b"/></body></worldbody>)",
         // a class gives one orientation, the element another
         R"(<default><geom euler="10 20 30" type="box" size="1 2 3"/><default class="q"><geom quat="1 1 0 0"/></default>
            </default><worldbody><body><freejoint/><geom zaxis="1 0 0"/><geom class="q"/><geom axisangle="1 0 0 30"/></body>
@@ -101,6 +111,23 @@ INSTANTIATE_TEST_SUITE_P(
              <key qpos="-.3 1 1 0 0 0 .5 .5 -.5 .5 0 1 2 3 0 0 1 0"/></keyframe>)",
         R"(<worldbody><body><freejoint/><geom size="1" condim="1" friction=".7 .1" priority="2" contype="6" conaffinity="0"/>
            <geom size="1" mass="0"/><geom size="1" density="0" condim="6"/></body></worldbody>)"));
+
+TEST(Oracle, DefaultsOfMeshesHoldNoData) {
+  for (const char* data : {"vertex='0 0 0 1 0 0 0 1 0 0 0 1'", "face='0 2 1 0 1 3 0 3 2 1 2 3'", "file='a.obj'",
+                           "refpos='1 0 0'", "refquat='0 1 0 0'", "normal='0 0 1'", "texcoord='0 0'",
+                           "smoothnormal='true'", "content_type='model/obj'", "scale='2 3 4'"}) {
+    const std::string file = write("<mujoco><default><mesh " + std::string(data) + R"(/></default><asset>
+      <mesh name="m" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></asset><worldbody><geom type="mesh" mesh="m"/></worldbody></mujoco>)");
+    bool isRead = true;
+    try {
+      readMjcf(file);
+    } catch (const FileError& error) {
+      isRead = false;
+      EXPECT_NE(std::string(error.what()).find("not allowed in a default"), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(isRead, load(file).model != nullptr) << data;
+  }
+}
 
 TEST(Oracle, KeyframeVelocities) {
   const std::string file = write(R"(<mujoco><worldbody>

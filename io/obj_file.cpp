@@ -53,7 +53,7 @@ class ObjReader {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool clean = error == std::errc{} && (end == text.data() + text.size() || *end == '/');
     const int64_t count = static_cast<int64_t>(out_.vertices.size());
-    if (clean && value < 0 && -value <= count) return static_cast<uint32_t>(count + value);
+    if (clean && value < 0 && value >= -count) return static_cast<uint32_t>(count + value);
     if (!clean || value <= 0 || value > INT32_MAX) {
       scan_.fail("f", text,
                  "the vertex must be 1 .. " + std::to_string(count) + " or -" + std::to_string(count) + " .. -1");

@@ -22,8 +22,11 @@ namespace avbd {
 
 /// What to do with a collision mesh that is missing, of a kind that cannot be read, or without volume.
 enum class BadMesh : uint8_t {
-  Refuse,  ///< FileError. A missing .dae with a sibling .stl or .obj is no fault; one without is only noted.
-  Note,    ///< leave the collision out with a note
+  /// FileError. Of a mesh of another kind, such as .dae, there or missing, a sibling .stl, .obj or .msh is read
+  /// instead;
+  /// one that is there without such a sibling is only noted.
+  Refuse,
+  Note,  ///< leave the collision out with a note
 };
 
 struct UrdfOptions {

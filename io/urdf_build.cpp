@@ -36,6 +36,7 @@ class Builder {
   void noteJoints();
   void loadHulls();
   void addShapes(size_t link);
+  std::optional<Color> colorOf(const Link& link, const Shape& shape) const;
   void addShape(size_t link, const Shape& shape, Geometry geometry);
   Geometry geometryOf(const Link& link, const Shape& shape) const;
   Material materialOf(const Link& link) const;
@@ -62,6 +63,7 @@ class Builder {
   std::vector<LinkHulls> hulls_;                                // by link
   std::vector<BodyDef> defs_;                                   // of links that are bodies
   std::vector<std::vector<const Shape*>> shapes_;               // of defs_' shapes
+  std::vector<std::vector<std::optional<Color>>> colors_;       // of defs_' shapes
   std::vector<BodyId> ids_;
   double lowest_ = std::numeric_limits<double>::infinity();
   Model model_;
@@ -116,7 +118,7 @@ void Builder::noteJoints() {
   }
   if (options_.collideVisuals) return;
   for (const Link& link : in_.links) {
-    if (!link.visuals.empty()) in_.notes.add(link.visuals[0].where, "visuals are not used");
+    if (!link.visuals.empty()) in_.notes.add(link.visuals[0].where, "visuals are not used, but for their colour");
   }
 }
 
@@ -176,6 +178,15 @@ void Builder::addShapes(size_t index) {
   }
 }
 
+// Collisions have none of their own: they take that of what is seen in their place.
+std::optional<Color> Builder::colorOf(const Link& link, const Shape& shape) const {
+  if (shape.color) return shape.color;
+  for (const Shape& visual : link.visuals) {
+    if (visual.color) return visual.color;
+  }
+  return {};
+}
+
 void Builder::addShape(size_t index, const Shape& shape, Geometry geometry) {
   const Hull* hull = std::get_if<Hull>(&geometry);
   lowest_ = std::min(lowest_, urdf::lowest(shape, hull ? hull->data.get() : nullptr, poses_[index] * shape.pose));
@@ -190,6 +201,7 @@ void Builder::addShape(size_t index, const Shape& shape, Geometry geometry) {
   def.material = materialOf(in_.links[index]);
   defs_[bodyOf_[index]].shapes.push_back(std::move(def));
   shapes_[bodyOf_[index]].push_back(&shape);
+  colors_[bodyOf_[index]].push_back(colorOf(in_.links[index], shape));
 }
 
 // Of all links that fixed joints join to `head`, in the frame of its body. If none of them has a mass, they get one.
@@ -265,7 +277,7 @@ void Builder::addBody(size_t root) {
     const Shape& shape = *shapes_[root].at(index);
     throw FileError(shape.where + ": " + error.what(), in_.fileName, shape.line);
   }
-  model_.bodies.push_back({ids_[root], link.name});
+  model_.bodies.push_back({ids_[root], link.name, std::move(colors_[root])});
 }
 
 void Builder::addJoint(const Joint& joint) {
@@ -308,6 +320,7 @@ Model Builder::build() {
   loadHulls();
   defs_.resize(in_.links.size());
   shapes_.resize(in_.links.size());
+  colors_.resize(in_.links.size());
   ids_.resize(in_.links.size());
   for (size_t i = 0; i < in_.links.size(); ++i) addShapes(i);
   for (size_t i = 0; i < in_.links.size(); ++i) {

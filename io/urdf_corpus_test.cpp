@@ -293,6 +293,31 @@ TEST(UrdfMeshes, ALinkOutOfThePackageIsRefused) {
   }
 }
 
+// As colcon build --symlink-install lays them out.
+TEST(UrdfMeshes, ALinkToThePackagesSourcesOrToANamedFolderIsFollowed) {
+  const Folder folder;
+  const std::string wedge = textOf(kCorpus / "parts_description/meshes/wedge.obj");
+  const fs::path source = folder.put("ws/src/repository/arm/meshes/a.obj", wedge);
+  const fs::path share = "ws/install/arm/share/arm";
+  const fs::path file = folder.put(share / "urdf/r.urdf", robotWith("package://arm/meshes/a.obj"));
+  fs::create_directory(folder.path() / share / "meshes");
+  fs::create_symlink(source, folder.path() / share / "meshes/a.obj");
+  try {
+    readUrdf(file);
+    ADD_FAILURE() << "nothing says that the link leads to the package's sources";
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("symbolic link to " + source.string()), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("--package DIR"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(readUrdf(file, {.packagePaths = {folder.path() / "ws/install"}}), FileError);
+  EXPECT_EQ(readUrdf(file, {.packagePaths = {folder.path() / "ws/src/"}}).world.shapeCount(), 1u);
+  EXPECT_EQ(readUrdf(file, {.packages = {{"other", folder.path() / "ws/src"}}}).world.shapeCount(), 1u);
+  folder.put("ws/src/repository/arm/package.xml", "<package><name>leg</name></package>");
+  EXPECT_THROW(readUrdf(file), FileError);
+  folder.put("ws/src/repository/arm/package.xml", "<package><name>arm</name></package>");
+  EXPECT_EQ(readUrdf(file).world.shapeCount(), 1u);
+}
+
 TEST(UrdfMeshes, PackagesAreFoundByNameByPathAndUpwards) {
   const Folder folder;
   const std::string wedge = textOf(kCorpus / "parts_description/meshes/wedge.obj");

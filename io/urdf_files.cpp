@@ -60,10 +60,22 @@ bool isPackage(const fs::path& folder, const std::string& name) {
   return isFolder(folder) && (folder.filename() == name || packageNameOf(folder) == name);
 }
 
+constexpr int kMostLevels = 32;  // of folders above a file
+
+// `file` as the disk has it, without links.
 bool isInside(const fs::path& file, const fs::path& folder) {
   std::error_code error;
-  const fs::path inner = fs::weakly_canonical(file, error), outer = fs::weakly_canonical(folder, error);
-  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+  const fs::path outer = fs::weakly_canonical(folder.has_filename() ? folder : folder.parent_path(), error);
+  return std::mismatch(outer.begin(), outer.end(), file.begin(), file.end()).first == outer.end();
+}
+
+// Whether a folder above `file` is this package by its package.xml.
+bool isInPackage(const fs::path& file, const std::string& name) {
+  fs::path at = file.parent_path();
+  for (int level = 0; level < kMostLevels && at.has_relative_path(); ++level, at = at.parent_path()) {
+    if (packageNameOf(at) == name) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -82,6 +94,18 @@ MeshFiles::MeshFiles(const Description& description, const UrdfOptions& options)
 
 void MeshFiles::refuseEscape(const Shape& shape, const std::string& how) const {
   failMesh(description_, shape, how + ": a package path must stay in the folder of its package");
+}
+
+// A link may lead to where the user himself sent us, or to the package's own sources: that is what installing by links
+// makes (colcon build --symlink-install).
+void MeshFiles::refuseLinkOut(const Shape& shape, const fs::path& file, const Place& place) const {
+  std::error_code error;
+  const fs::path target = fs::weakly_canonical(file, error);
+  bool allowed = place.package.empty() || isInside(target, place.package) || isInPackage(target, place.packageName);
+  for (const auto& [name, folder] : options_.packages) allowed = allowed || isInside(target, folder);
+  for (const fs::path& folder : options_.packagePaths) allowed = allowed || isInside(target, folder);
+  if (allowed) return;
+  refuseEscape(shape, "leaves by a symbolic link to " + target.string() + ", where no --package DIR leads");
 }
 
 std::vector<fs::path> MeshFiles::packageFolders(const std::string& package) const {
@@ -104,7 +128,6 @@ std::vector<fs::path> MeshFiles::packageFolders(const std::string& package) cons
     std::sort(inside.begin(), inside.end());
     out.insert(out.end(), inside.begin(), inside.end());
   }
-  constexpr int kMostLevels = 32;
   fs::path at = folder_;
   for (int level = 0; level < kMostLevels; ++level) {
     look(at);
@@ -120,7 +143,7 @@ std::vector<MeshFiles::Place> MeshFiles::places(const Shape& shape, const std::s
   const std::string kind = scheme == std::string::npos ? "" : lower(uri.substr(0, scheme));
   if (kind.empty() || kind == "file") {
     const fs::path path(rest);
-    return {{path.is_absolute() ? path : folder_ / path, {}}};
+    return {{path.is_absolute() ? path : folder_ / path, {}, {}}};
   }
   const size_t slash = rest.find('/');
   const std::string package = rest.substr(0, slash);
@@ -132,7 +155,7 @@ std::vector<MeshFiles::Place> MeshFiles::places(const Shape& shape, const std::s
   const fs::path normal = fs::path(rest.substr(start)).lexically_normal();
   if (!normal.empty() && *normal.begin() == "..") refuseEscape(shape, "leaves by \"..\"");
   std::vector<Place> out;
-  for (const fs::path& folder : packageFolders(package)) out.push_back({folder / normal, folder});
+  for (const fs::path& folder : packageFolders(package)) out.push_back({folder / normal, folder, package});
   return out;
 }
 
@@ -144,7 +167,7 @@ FoundMesh MeshFiles::find(const Shape& shape) const {
     out.note = "backslashes taken for slashes";
   }
   const auto put = [&](const fs::path& file, const Place& place, const std::string& note) {
-    if (!place.package.empty() && !isInside(file, place.package)) refuseEscape(shape, "leaves by a symbolic link");
+    refuseLinkOut(shape, file, place);
     out.outcome = FoundMesh::Outcome::Found;
     out.file = file;
     if (!note.empty()) out.note += (out.note.empty() ? "" : "; ") + note;

@@ -27,16 +27,19 @@ class MeshFiles {
  public:
   MeshFiles(const Description& description, const UrdfOptions& options);
 
-  /// Throws FileError for a package path that leaves its package.
+  /// Throws FileError for a package path that leaves its package. A link may leave it for a folder of UrdfOptions, or
+  /// for another folder that package.xml calls the same package.
   FoundMesh find(const Shape& shape) const;
 
  private:
   struct Place {
     std::filesystem::path file;
     std::filesystem::path package;  ///< that `file` must not leave; empty: any place will do
+    std::string packageName;
   };
   std::vector<Place> places(const Shape& shape, const std::string& uri) const;
   std::vector<std::filesystem::path> packageFolders(const std::string& package) const;
+  void refuseLinkOut(const Shape& shape, const std::filesystem::path& file, const Place& place) const;
   [[noreturn]] void refuseEscape(const Shape& shape, const std::string& how) const;
 
   const Description& description_;

@@ -9,7 +9,9 @@
 namespace avbd::urdf {
 
 void Hulls::fault(const Shape& shape, const std::string& message) {
-  if (options_.badMesh == BadMesh::Refuse) failMesh(description_, shape, message);
+  if (options_.badMesh == BadMesh::Refuse) {
+    failMesh(description_, shape, message + " (--skip-bad-meshes leaves it out)");
+  }
   notes_.add(shape.where, "mesh " + mjcf::quoted(shape.mesh) + ": " + message + ": left out");
 }
 

@@ -9,6 +9,7 @@
 
 #include "io/mjcf_mass.h"
 #include "io/mujoco_compare.h"
+#include "io/simbody_robots.h"
 #include "io/urdf.h"
 #include "io/urdf_parse.h"
 
@@ -154,8 +155,8 @@ std::string withoutMeshes(std::string text) {
 }
 
 TEST(UrdfOracle, Robots) {
-  const std::string source = "/usr/share/doc/simbody/examples/src/TaskSpaceControl-";
-  if (!fs::exists(source + "UR10")) GTEST_SKIP() << "libsimbody-dev is not installed";
+  if (const char* why = simbodyRobotsMissing()) GTEST_SKIP() << why;
+  const std::string source = (kSimbodyExamples / "TaskSpaceControl-").string();
   compare(withoutMeshes(unpacked(source + "UR10/models/ur10_robot.urdf.gz")), "ur10_robot.urdf");
   std::string atlas = withoutMeshes(unpacked(source + "Atlas/models/atlas_v4.urdf.gz"));
   // No body can have the head's inertia: MuJoCo refuses it, and ours is repaired.

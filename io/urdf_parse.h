@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/color.h"
 #include "io/file_error.h"
 #include "io/mjcf_math.h"
 #include "io/mjcf_parse.h"
@@ -30,6 +31,7 @@ struct Shape {
   Posed pose;        ///< in the link's frame
   std::string mesh;  ///< as the file names it
   Vec3d scale{1, 1, 1};
+  std::optional<Color> color;  ///< of a visual's <material>
 };
 
 /// Contact of a link, from <contact> or <gazebo>; not set where the file says nothing.

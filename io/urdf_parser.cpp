@@ -17,7 +17,10 @@ const std::set<std::string_view> kPartsOfLink = {"inertial", "collision", "visua
 
 // As the file has it (Source hides its includes).
 std::string tagOf(Elem elem) {
-  return elem.name() == "Include" ? "<include>" : "<" + std::string(elem.name().substr(0, 60)) + ">";
+  if (elem.name() == "Include") return "<include>";
+  std::string tag(elem.name().substr(0, 60));
+  tag.insert(tag.begin(), '<');
+  return tag + '>';
 }
 
 }  // namespace
@@ -34,6 +37,7 @@ void Parser::parse() {
     note(robot, "the robot has no name: that of the file is taken");
   }
   const std::vector<Elem> parts = source_.children(robot);
+  readMaterials(parts);
   for (const Elem& part : parts) {
     if (part.name() == "link") readLink(part);
   }
@@ -45,13 +49,11 @@ void Parser::parse() {
   dropMimicLoops();
   for (const Elem& part : parts) {
     const std::string_view name = part.name();
-    if (name == "link" || name == "joint") continue;
+    if (name == "link" || name == "joint" || name == "material") continue;
     if (name == "transmission") {
       readTransmission(part);
     } else if (name == "gazebo") {
       readGazebo(part);
-    } else if (name == "material") {
-      noteUnused(part, "colours are not used");
     } else if (name == "Include") {
       note(part, "<include> is not part of URDF: left out");
     } else {
@@ -184,7 +186,7 @@ void Parser::readGazebo(Elem elem) {
   for (const Elem& part : source_.children(elem)) {
     const std::string_view name = part.name();
     if (link == linksByName_.end() || (name != "mu1" && name != "mu2")) {
-      out_.notes.add(source_.where(elem), "<gazebo> with " + tagOf(part) + ": not used");
+      out_.notes.add(source_.where(elem), tagOf(part) + ": not used", "gazebo");
       continue;
     }
     std::vector<double> value;

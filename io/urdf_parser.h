@@ -23,6 +23,9 @@ class Parser {
   std::optional<Shape> readShape(Elem elem);
   void readSize(Elem elem, Shape& shape);
   void readMesh(Elem elem, Shape& shape);
+  std::optional<Color> readColor(Elem material);
+  void readMaterials(const std::vector<Elem>& parts);
+  std::optional<Color> readMaterial(Elem elem);
   void readContact(Elem elem, Link& link);
   void readGazebo(Elem elem);
   Posed readOrigin(Elem parent);
@@ -49,6 +52,7 @@ class Parser {
   const Source& source_;
   Description& out_;
   Names linksByName_, jointsByName_;
+  std::map<std::string, std::optional<Color>, std::less<>> materials_;
   std::vector<Elem> linkElems_, jointElems_;
 };
 

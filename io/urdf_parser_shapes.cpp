@@ -28,7 +28,11 @@ std::optional<Shape> Parser::readShape(Elem elem) {
   for (const Elem& part : source_.children(elem)) {
     const std::string_view name = part.name();
     if (name == "origin" || name == "geometry" || name == "verbose") continue;
-    noteUnused(part, name == "material" ? "colours are not used" : "not used");
+    if (name == "material") {
+      shape.color = readMaterial(part);
+    } else {
+      noteUnused(part, "not used");
+    }
   }
   if (kinds.size() > 1) source_.fail(*geometry, "holds " + std::to_string(kinds.size()) + " shapes: must be one");
   const std::string_view kind = kinds[0].name();

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <random>
 
+#include "io/simbody_robots.h"
 #include "io/urdf.h"
 #include "io/urdf_parse.h"
 
@@ -15,16 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kSource = "/usr/share/doc/simbody/examples/src";
-
 // The robots unpacked, and their meshes where their package paths point to.
 class Robots : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    if (!fs::exists(kSource)) return;
+    if (simbodyRobotsMissing()) return;
     std::string pattern = (fs::temp_directory_path() / "avbd_robots_XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
-    const fs::path atlas = kSource / "TaskSpaceControl-Atlas", ur10 = kSource / "TaskSpaceControl-UR10";
+    const fs::path atlas = kSimbodyExamples / "TaskSpaceControl-Atlas",
+                   ur10 = kSimbodyExamples / "TaskSpaceControl-UR10";
     unpack(atlas / "models", folder_ / "atlas_description/urdf");
     unpack(atlas / "geometry", folder_ / "atlas_description/meshes_v3");
     unpack(atlas / "geometry", folder_ / "multisense_sl_description/meshes");
@@ -36,7 +36,7 @@ class Robots : public testing::Test {
     if (!folder_.empty()) fs::remove_all(folder_);
   }
   void SetUp() override {
-    if (folder_.empty()) GTEST_SKIP() << "libsimbody-dev is not installed";
+    if (const char* why = simbodyRobotsMissing()) GTEST_SKIP() << why;
   }
 
   static void unpack(const fs::path& from, const fs::path& to) {

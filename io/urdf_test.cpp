@@ -281,6 +281,45 @@ TEST(Urdf, AWorldThatIsNoLinkHoldsTheRobot) {
   EXPECT_NEAR(length(toDouble(rotate(pose.rotation, Vec3{1, 0, 0})) - Vec3d{0, -1, 0}), 0, 1e-6);
 }
 
+TEST(Urdf, ShapesHaveTheColorsOfTheirLinksVisuals) {
+  const std::string ball = "<geometry><sphere radius='1'/></geometry>";
+  const auto link = [&](const std::string& name, const std::string& material) {
+    return "<link name='" + name + "'><visual>" + ball + "</visual><visual>" + ball + material +
+           "</visual><collision>" + ball + "</collision></link>";
+  };
+  std::string xml = "<robot name='r'>";
+  const char* const materials[] = {"<material name='blue'/>",
+                                   "<material name=''><color rgba='1 0 0 0.5'/></material>",
+                                   "<material name='own'><color rgba='0 1 0'/></material>",
+                                   "<material name='own'/>",
+                                   "<material name='blue'><color rgba='0 1 0 1'/></material>",
+                                   "<material name='nowhere'/>",
+                                   "<material name=''><color rgba='51 0 255 1'/></material>",
+                                   "<material name=''><color rgba='red'/></material>",
+                                   ""};
+  for (size_t i = 0; i < std::size(materials); ++i) {
+    xml += link("l" + std::to_string(i), materials[i]);
+    if (i > 0) {
+      xml += "<joint name='j" + std::to_string(i) + "' type='fixed'><parent link='l0'/><child link='l" +
+             std::to_string(i) + "'/></joint>";
+    }
+  }
+  xml += "<material name='blue'><color rgba='0 0 1 1'/></material></robot>";
+  const Model model = readUrdfText(xml, "t.urdf");
+  const std::optional<Color> expected[] = {Color{0, 0, 255},  Color{255, 0, 0, 128}, Color{0, 255, 0},
+                                           Color{0, 255, 0},  Color{0, 0, 255},      std::nullopt,
+                                           Color{51, 0, 255}, std::nullopt,          std::nullopt};
+  const NamedBody& body = model.bodies.at(0);
+  ASSERT_EQ(body.colors.size(), std::size(expected));
+  ASSERT_EQ(model.world.shapes(body.id).size(), std::size(expected));
+  for (size_t i = 0; i < std::size(expected); ++i) EXPECT_EQ(body.colors[i], expected[i]) << i;
+  std::string notes;
+  for (const std::string& note : model.notes) notes += note + "\n";
+  for (const char* part : {"no material has this name", "taken for 0 .. 255", "rgba must be 4 numbers"}) {
+    EXPECT_NE(notes.find(part), std::string::npos) << notes;
+  }
+}
+
 // A body that moves and has nothing is refused only where that leaves a shape without mass.
 TEST(Urdf, AFrameThatFloatsIsNoBody) {
   const Model model = readUrdfText("<robot name='r'><link name='a'/></robot>", "t.urdf", {.floating = true});

@@ -7,7 +7,7 @@ from source_tree import bare, files, finish, root_from_args
 
 UNUSED = {"manager", "handler", "context", "objective", "owner", "utils", "util", "helper"}
 # Names that other libraries gave.
-FOREIGN = {"error_handler_t", "sa_handler"}
+FOREIGN = {"error_handler_t", "sa_handler", "io_context"}
 SILENT = re.compile(r"\b(getenv|printf|fprintf|puts|fputs|cout|cerr|clog|perror)\b")
 
 # A failed assert says where before it aborts.

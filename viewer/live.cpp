@@ -13,6 +13,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "viewer/live_feed.h"
 #include "viewer/page.h"
@@ -68,6 +69,7 @@ class Watcher : public std::enable_shared_from_this<Watcher> {
       send(head);
     }
     if (figuresSent_ >= shared_.feed.known() && finishedSent_ == shared_.feed.finished()) return;
+    if (shared_.feed.finished() && !finishedSent_) send(shared_.feed.report());
     send(shared_.feed.figures(figuresSent_));
     figuresSent_ = shared_.feed.known();
     finishedSent_ = shared_.feed.finished();
@@ -210,10 +212,9 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
 
 }  // namespace
 
-struct LiveServer::Impl : std::enable_shared_from_this<Impl> {
-  explicit Impl(const std::filesystem::path& recording)
-      : shared(recording), pool(1), acceptor(pool.get_executor()), timer(pool.get_executor()) {}
-
+struct LiveServer::Impl {
+  Impl() = default;
+  void open(const std::filesystem::path& recording) { shared.emplace(recording); }
   void listen(uint16_t port) {
     const tcp::endpoint place(net::ip::address_v4::loopback(), port);
     try {
@@ -224,17 +225,39 @@ struct LiveServer::Impl : std::enable_shared_from_this<Impl> {
     } catch (const boost::system::system_error& e) {
       throw std::runtime_error("port " + std::to_string(port) + ": " + e.code().message());
     }
-    shared.port = acceptor.local_endpoint().port();
+  }
+  ~Impl() {
+    tasks.stop();
+    if (thread.joinable()) thread.join();
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void start() {
+    shared->port = acceptor.local_endpoint().port();
+    shared->feed.update();
+    accept();
+    look();
+    thread = std::thread([this] { serve(); });
+  }
+
+  // What one connection throws ends that connection: its handler was the last to hold it.
+  void serve() {
+    while (!tasks.stopped()) {
+      try {
+        tasks.run();
+      } catch (const std::exception&) {
+      }
+    }
   }
 
   void accept() {
     acceptor.async_accept([this](Failure failed, tcp::socket socket) {
       if (failed == net::error::operation_aborted) return;
-      if (!failed) {
-        const auto welcome = [this](const std::shared_ptr<Watcher>& watcher) { watchers.push_back(watcher); };
-        std::make_shared<Visitor>(std::move(socket), shared, welcome)->read();
-      }
       accept();
+      if (failed) return;
+      const auto welcome = [this](const std::shared_ptr<Watcher>& watcher) { watchers.push_back(watcher); };
+      std::make_shared<Visitor>(std::move(socket), *shared, welcome)->read();
     });
   }
 
@@ -242,9 +265,10 @@ struct LiveServer::Impl : std::enable_shared_from_this<Impl> {
     timer.expires_after(kLookAgain);
     timer.async_wait([this](Failure failed) {
       if (failed) return;
+      look();
       bool same = true;
       try {
-        same = shared.feed.update();
+        same = shared->feed.update();
       } catch (const std::exception&) {
         // The file cannot be read at the moment; what is known stays on show.
       }
@@ -253,35 +277,46 @@ struct LiveServer::Impl : std::enable_shared_from_this<Impl> {
         const auto watcher = weak.lock();
         if (!watcher) continue;
         if (same)
-          watcher->sendNews();
+          tell(*watcher);
         else
           watcher->close();  // the page asks again and begins anew
       }
-      look();
     });
   }
 
-  Shared shared;
-  net::thread_pool pool;
-  tcp::acceptor acceptor;
-  net::steady_timer timer;
+  // What cannot be told to one must not keep it from the others.
+  static void tell(Watcher& watcher) {
+    try {
+      watcher.sendNews();
+    } catch (const std::exception&) {
+      watcher.close();
+    }
+  }
+
+  std::optional<Shared> shared;
+  net::io_context tasks{1};
+  tcp::acceptor acceptor{tasks};
+  net::steady_timer timer{tasks};
   std::vector<std::weak_ptr<Watcher>> watchers;
+  std::thread thread;
 };
 
-LiveServer::LiveServer(const std::filesystem::path& recording, uint16_t port)
-    : impl_(std::make_shared<Impl>(recording)) {
+LiveServer::LiveServer(const std::filesystem::path& recording, uint16_t port) : impl_(std::make_unique<Impl>()) {
+  impl_->open(recording);
   impl_->listen(port);
-  impl_->shared.feed.update();
-  impl_->accept();
-  impl_->look();
+  impl_->start();
 }
 
-LiveServer::~LiveServer() {
-  impl_->pool.stop();
-  impl_->pool.join();
+LiveServer::LiveServer(uint16_t port) : impl_(std::make_unique<Impl>()) { impl_->listen(port); }
+
+LiveServer::~LiveServer() = default;
+
+void LiveServer::show(const std::filesystem::path& recording) {
+  impl_->open(recording);
+  impl_->start();
 }
 
-uint16_t LiveServer::port() const { return impl_->shared.port; }
+uint16_t LiveServer::port() const { return impl_->acceptor.local_endpoint().port(); }
 
 std::string LiveServer::url() const { return "http://127.0.0.1:" + std::to_string(port()) + "/"; }
 

@@ -14,16 +14,20 @@ class LiveServer {
   /// Listens on 127.0.0.1; port 0 takes one that is free. Throws FileError for what is no recording, and
   /// std::runtime_error if the port cannot be had. Serves in a thread of its own until destroyed.
   LiveServer(const std::filesystem::path& recording, uint16_t port);
+  /// Only takes the port: who asks waits until show() says what there is to see.
+  explicit LiveServer(uint16_t port);
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;
   LiveServer& operator=(const LiveServer&) = delete;
 
+  /// Once. Throws FileError for what is no recording.
+  void show(const std::filesystem::path& recording);
   uint16_t port() const;
   std::string url() const;
 
  private:
   struct Impl;
-  std::shared_ptr<Impl> impl_;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace avbd

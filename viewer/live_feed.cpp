@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "io/record/json.h"
 #include "viewer/page.h"
 
 namespace avbd::live {
@@ -29,13 +30,24 @@ Message messageOf(Bytes&& bytes) { return std::make_shared<const Bytes>(std::mov
 
 }  // namespace
 
+void Feed::forget() {
+  generation_ = reader_.generation();
+  head_ = nullptr;
+  times_.clear();
+  for (auto* list : {&energy_, &penetration_, &gap_}) list->clear();
+  contactsAll_.clear();
+  contactsKept_.clear();
+}
+
 bool Feed::update() {
-  reader_.refresh();
-  if (reader_.frameCount() < known()) {
-    head_ = nullptr;
-    for (auto* list : {&energy_, &penetration_, &gap_}) list->clear();
-    contactsAll_.clear();
-    contactsKept_.clear();
+  try {
+    reader_.refresh();
+  } catch (const FileError&) {
+    // Begun anew, and not far enough yet to be read: what was sent is void all the same.
+    if (reader_.generation() == generation_) throw;
+  }
+  if (reader_.generation() != generation_) {
+    forget();
     return false;
   }
   const uint64_t end = std::min<uint64_t>(reader_.frameCount(), known() + kMostNew);
@@ -47,6 +59,7 @@ bool Feed::update() {
       f.kineticEnergy = NAN;  // its place in the plots stays empty
     }
     const auto count = static_cast<uint32_t>(f.contacts.size());
+    times_.push_back(reader_.times()[i]);
     energy_.push_back(static_cast<float>(f.kineticEnergy));
     penetration_.push_back(static_cast<float>(f.penetrationMax));
     gap_.push_back(static_cast<float>(f.jointGapMax));
@@ -63,6 +76,7 @@ Message Feed::head() {
     first.frames = {reader_.frame(0)};
   } catch (const FileError&) {
     RecordedFrame none;
+    none.time = times_[0];
     none.poses.resize(first.bodies.size());
     first.frames = {none};
   }
@@ -81,12 +95,23 @@ Message Feed::figures(uint32_t first) const {
   put(bytes, first);
   put(bytes, known() - first);
   put(bytes, static_cast<uint32_t>(finished()));
-  for (uint32_t i = first; i < known(); ++i) put(bytes, reader_.times()[i]);
+  putPart(bytes, times_, first);
   putPart(bytes, energy_, first);
   putPart(bytes, penetration_, first);
   putPart(bytes, gap_, first);
   putPart(bytes, contactsAll_, first);
   putPart(bytes, contactsKept_, first);
+  return messageOf(std::move(bytes));
+}
+
+Message Feed::report() const {
+  std::string json = "[";
+  for (const auto& [label, value] : reader_.head().report)
+    json += (json.size() > 1 ? ",[" : "[") + record::jsonText(label) + "," + record::jsonText(value) + "]";
+  json += "]";
+  Bytes bytes;
+  put(bytes, static_cast<uint32_t>(MessageKind::Report));
+  bytes.insert(bytes.end(), json.begin(), json.end());
   return messageOf(std::move(bytes));
 }
 

@@ -17,27 +17,35 @@ enum class MessageKind : uint32_t {
   Head = 1,     ///< JSON, from byte 4 on
   Figures = 2,  ///< first frame, count, finished; 8-byte times; float energies, penetrations, gaps; contacts, kept
   Frame = 3,    ///< frame, bodies, contacts; floats: 7 for each body, 3 for each contact's place, 3 for its force
+  Report = 4,   ///< JSON, from byte 4 on: a list of label and value
 };
 
 class Feed {
  public:
-  explicit Feed(const std::filesystem::path& recording) : reader_(recording) {}
+  explicit Feed(const std::filesystem::path& recording) : reader_(recording), generation_(reader_.generation()) {}
 
-  /// Reads on. False if the file was begun anew, and all that was sent is void.
+  /// Reads on. False if the file was begun anew, and all that was sent is void. Throws FileError where the file cannot
+  /// be read at the moment; what is known stays.
   bool update();
   /// Frames whose figures are known.
-  uint32_t known() const { return static_cast<uint32_t>(energy_.size()); }
+  uint32_t known() const { return static_cast<uint32_t>(times_.size()); }
   bool finished() const { return reader_.info().finished && known() == reader_.frameCount(); }
   /// Null while there is no frame.
   Message head();
   Message figures(uint32_t first) const;
+  /// It comes last into a recording: after the head was sent, unless that had finished before.
+  Message report() const;
   /// A frame that cannot be read has no bodies.
   Message frame(uint32_t number);
 
  private:
+  void forget();
+
   RecordReader reader_;
+  uint64_t generation_;  // the reader's, of all below
   Message head_;
   Vec3d origin_;
+  std::vector<double> times_;
   std::vector<float> energy_, penetration_, gap_;
   std::vector<uint32_t> contactsAll_, contactsKept_;
 };

@@ -105,6 +105,8 @@ async function testFinished(file) {
   const second = await open(url);
   assert.equal(await ask(second.page, () => window.avbdViewer.recording.frames), frames);
   await page.screenshot({path: join(resolve(folder), 'live.png')});
+  await ask(page, () => window.avbdViewer.select(window.avbdViewer.recording.bodies - 1));
+  await page.waitForFunction(() => window.avbdViewer.pathLines > 50, null, {timeout: 10000});
 
   assert.equal(await request(port, {path: '/'}), 200);
   assert.equal(await request(port, {path: '/', method: 'HEAD'}), 200);
@@ -128,16 +130,37 @@ async function testFinished(file) {
   await second.page.close();
 }
 
+/// Of a long recording a click asks for some frames along the body's path, not for all.
+async function testPath(file) {
+  const server = start('play', file, '--port', '0');
+  const {page, complaints} = await open((await server.place).url);
+  await page.keyboard.press('e');
+  const frames = await ask(page, () => window.avbdViewer.recording.frames);
+  await page.waitForTimeout(1000);
+  const before = await ask(page, () => window.avbdViewer.framesHeld);
+  await ask(page, () => window.avbdViewer.select(window.avbdViewer.recording.bodies - 1));
+  await page.waitForFunction(() => window.avbdViewer.pathLines > 100, null, {timeout: 20000});
+  await page.waitForTimeout(1000);
+  const asked = await ask(page, () => window.avbdViewer.framesHeld) - before;
+  assert.ok(frames > 900 && asked > 100 && asked < 400, `${asked} of ${frames} frames`);
+  server.child.kill('SIGINT');
+  await server.ended;
+  assert.deepEqual(complaints.filter((text) => !/ERR_CONNECTION_REFUSED|WebSocket/.test(text)), []);
+  await page.close();
+}
+
 /// The page follows a run that still goes on, and sees its end.
 async function testGrowing() {
-  const server = start('run', 'chain', '--time', '4', '--live', '--port', '0', '--no-report');
+  const server = start('run', 'chain', '--time', '12', '--live', '--port', '0', '--no-report');
   const {url} = await server.place;
   const {page, complaints} = await open(url);
   const first = await ask(page, () => ({frames: window.avbdViewer.recording.frames, time: window.avbdViewer.time}));
   await page.waitForFunction((before) => window.avbdViewer.recording.frames > before + 20, first.frames, {timeout: 30000});
   assert.ok(await ask(page, () => window.avbdViewer.time) > first.time, 'the page stays at the end');
   await page.waitForFunction(() => window.avbdViewer.finished, null, {timeout: 60000});
-  assert.ok(Math.abs(await ask(page, () => window.avbdViewer.time) - 4) < 0.02);
+  assert.ok(Math.abs(await ask(page, () => window.avbdViewer.time) - 12) < 0.02);
+  const reported = () => [...document.querySelectorAll('.panel th')].some((cell) => cell.textContent === 'hash');
+  await page.waitForFunction(reported, null, {timeout: 10000});
   server.child.kill('SIGINT');
   const {status, text} = await server.ended;
   assert.equal(status, 0, text);
@@ -149,6 +172,9 @@ try {
   const recorded = await start('run', 'chain', '--time', '1', '--record', 'chain.avbd', '--no-report').ended;
   assert.equal(recorded.status, 0, recorded.text);
   await testFinished('chain.avbd');
+  const longer = await start('run', 'chain', '--time', '16', '--record', 'long.avbd', '--no-report').ended;
+  assert.equal(longer.status, 0, longer.text);
+  await testPath('long.avbd');
   await testGrowing();
   console.log('all passed');
 } finally {

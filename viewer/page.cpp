@@ -226,6 +226,8 @@ void writeShapes(Head& head, const Recording& r) {
   std::vector<uint8_t> kinds, triggers;
   std::vector<int32_t> numbers;
   std::vector<float> sizes, poses;
+  std::vector<uint8_t> colors;
+  bool anyColor = false;
   record::Surfaces surfaces;
   for (const RecordedShape& shape : r.shapes) {
     const Size size = std::visit([](const auto& geometry) { return sizeOf(geometry); }, shape.geometry);
@@ -236,7 +238,11 @@ void writeShapes(Head& head, const Recording& r) {
     sizes.insert(sizes.end(), size.begin(), size.end());
     append(poses, toFloat(shape.pose.position));
     append(poses, shape.pose.rotation);
+    const Color color = shape.color.value_or(Color{});
+    colors.insert(colors.end(), {color.red, color.green, color.blue, static_cast<uint8_t>(shape.color ? 1 : 0)});
+    anyColor = anyColor || shape.color;
   }
+  if (anyColor) head.numbers("shapeColors", colors);
   head.numbers("shapeBodies", bodies);
   head.numbers("shapeKinds", kinds);
   head.numbers("shapeSizes", sizes);

@@ -226,6 +226,7 @@ Recording shapesRun() {
   for (const auto& [name, geometry] : all) add(r, name, BodyType::Dynamic, geometry);
   r.shapes.push_back({add(r, "gate", BodyType::Static, Box{0.6f, 0.9f, 0.6f}), Sphere{0.2f}, {{0, 1.2, 0}, {}}, true});
   r.shapes[r.shapes.size() - 2].trigger = true;
+  r.shapes[3].color = Color{255, 24, 24};  // the box
   add(r, "terrain", BodyType::Static, HeightField{waves()});
   for (int i = 0; i < 60; ++i) {
     RecordedFrame f;

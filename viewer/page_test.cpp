@@ -39,6 +39,17 @@ std::string pageOf(const Recording& r, const PageOptions& options = {}) {
   return out.str();
 }
 
+TEST(Page, ColorsOfTheFileAreInTheHeadWhereThereAreAny) {
+  Recording r = twoBodies();
+  std::ostringstream without, with;
+  writePage(without, r);
+  EXPECT_EQ(without.str().find("\"shapeColors\":"), std::string::npos);
+  r.shapes[1].color = Color{255, 128, 0, 20};
+  writePage(with, r);
+  const std::string expected = text64(std::string("\0\0\0\0\xff\x80\0\x01", 8));
+  EXPECT_NE(with.str().find("\"shapeColors\":\"" + expected + '"'), std::string::npos);
+}
+
 size_t countOf(const std::string& text, const std::string& part) {
   size_t count = 0;
   for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;

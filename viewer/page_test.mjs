@@ -264,6 +264,13 @@ async function testShapes() {
     assert.ok(triangles >= 12, `${name} has ${triangles} triangles`);
   }
   const seen = await checkBodies(page, 12);
+  const box = await ask(page, () => {
+    const body = window.avbdViewer.recording.names.indexOf('box');
+    return {color: window.avbdViewer.colorOf(body), ...window.avbdViewer.project(body)};
+  });
+  assert.equal(box.color, 0xff1818);
+  const [red, green, blue] = (await pixels(page))(box.x, box.y);
+  assert.ok(red > 2 * green && red > 2 * blue, `the box has the colour of its file: ${red} ${green} ${blue}`);
   console.log(`shapes: ${seen} bodies where they should be, ${meshes.length} meshes`);
   await page.screenshot({path: join(work, 'shapes.png')});
   assert.deepEqual(complaints, []);

@@ -3,6 +3,7 @@
 
 #include <avbd/body.h>
 #include <avbd/debug_draw.h>
+#include <avbd/decompose.h>
 #include <avbd/error.h>
 #include <avbd/events.h>
 #include <avbd/geometry.h>

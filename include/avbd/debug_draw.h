@@ -88,7 +88,7 @@ struct DebugDrawOptions {
 /// Draws the world as it is now. Throws Error for options out of range.
 void debugDraw(const World& world, DebugSink& sink, const DebugDrawOptions& options = {});
 
-/// Draws one geometry: wire and/or solid as the options say.
+/// Draws one geometry: wire and/or solid as the options say. Throws Error before anything is drawn.
 void debugDraw(const Geometry& geometry, const Pose& pose, DebugColor color, DebugSink& sink,
                const DebugDrawOptions& options = {});
 

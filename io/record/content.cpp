@@ -5,6 +5,7 @@
 
 #include "io/file_error.h"
 #include "io/record/chunk.h"
+#include "io/record/limits.h"
 
 namespace avbd::record {
 namespace {
@@ -91,14 +92,19 @@ void HeadReader::takeMeta(const FieldReader& f) {
     if (!(length(v) > 0) || !std::isfinite(length(v))) f.refuse(kUp, "is no direction");
     recording.up = v;
   }
-  const std::vector<std::string> labels = f.texts(kLabels), values = f.texts(kValues);
+  const std::vector<std::string> labels = f.texts(kLabels, kReportMost), values = f.texts(kValues, kReportMost);
   if (labels.size() != values.size()) f.refuse(kLabels, "does not fit the values");
   if (labels.empty()) return;
   recording.report.clear();
   for (size_t i = 0; i < labels.size(); ++i) recording.report.emplace_back(labels[i], values[i]);
 }
 
+void HeadReader::refuseMore(const FieldReader& f, uint16_t id, size_t held) const {
+  if (held + f.count(id) > thingsMost) f.refuse(id, "has more elements than a file of this size may hold");
+}
+
 void HeadReader::takeBodies(const FieldReader& f) {
+  refuseMore(f, kNames, recording.bodies.size());
   const std::vector<std::string> names = f.texts(kNames);
   const std::vector<uint8_t> types = f.listOf<uint8_t>(kTypes, names.size());
   for (size_t i = 0; i < names.size(); ++i) {
@@ -109,13 +115,15 @@ void HeadReader::takeBodies(const FieldReader& f) {
 }
 
 void HeadReader::takeJoints(const FieldReader& f) {
+  refuseMore(f, kBodyA, recording.joints.size());
   const std::vector<uint32_t> a = f.list<uint32_t>(kBodyA), b = f.listOf<uint32_t>(kBodyB, a.size());
   const std::vector<double> anchorA = f.listOf<double>(kAnchorA, 3 * a.size()),
                             anchorB = f.listOf<double>(kAnchorB, 3 * a.size());
   if (!a.empty() && (b.empty() || anchorA.empty() || anchorB.empty())) f.refuse(kBodyA, "stands alone");
   const auto fits = [&](uint32_t body) { return body == kNotRecorded || body < recording.bodies.size(); };
-  for (size_t i = 0; i < a.size(); ++i) {
+  for (size_t i = 0; i < a.size(); ++i)
     if (!fits(a[i]) || !fits(b[i])) f.refuse(kBodyA, "names a body that there is not");
+  for (size_t i = 0; i < a.size(); ++i) {
     const double *p = &anchorA[3 * i], *q = &anchorB[3 * i];
     recording.joints.push_back({a[i], b[i], {p[0], p[1], p[2]}, {q[0], q[1], q[2]}});
   }

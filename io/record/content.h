@@ -37,9 +37,15 @@ Bytes shapesContent(const Recording& recording, Surfaces& surfaces);
 // Back. Each adds to `to`; FileError where a chunk does not fit. What a newer writer knew and this reader does not is
 // left out with a line in `notes`.
 struct HeadReader {
+  /// Its data are null where they could not be made.
+  struct Surface {
+    uint8_t kind;
+    Surfaces::Data data;
+  };
   Recording recording;
-  std::vector<Surfaces::Data> surfaces;
+  std::vector<Surface> surfaces;
   std::vector<std::string> notes;
+  uint64_t thingsMost = 0;  ///< bodies, shapes and joints, each
 
   /// True if the chunk was one of these.
   bool take(uint32_t type, const FieldReader& fields);
@@ -50,6 +56,7 @@ struct HeadReader {
   void takeSurface(const FieldReader& f);
   void takeShapes(const FieldReader& f);
   void takeJoints(const FieldReader& f);
+  void refuseMore(const FieldReader& f, uint16_t id, size_t held) const;
   Geometry geometryOf(uint8_t kind, const float size[4], uint32_t surface, const FieldReader& f);
 };
 
@@ -69,16 +76,19 @@ struct FrameBlock {
   std::vector<float> eventNormal, eventSpeed, eventImpulse;
 
   size_t size() const { return times.size(); }
-  /// About what it takes in memory.
+  /// At least what its content takes.
   size_t bytes() const;
+  /// At least what a frame adds to that.
+  static size_t bytesOf(const RecordedFrame& frame);
   /// The frame must have as many bodies, and velocities or none, as those before it.
   void add(const RecordedFrame& frame, const Recording& head);
   RecordedFrame frame(size_t i, const Recording& head) const;
 };
 Bytes framesContent(const FrameBlock& block);
-FrameBlock framesOf(const FieldReader& fields);
-/// The first frame's number and all times.
-std::pair<uint64_t, std::vector<double>> timesOf(const FieldReader& fields);
+/// Throws FileError for a run that does not fit in itself, or names bodies, shapes or kinds that there are not.
+FrameBlock framesOf(const FieldReader& fields, const Recording& head);
+/// The first frame's number and all times. As many frames as the bodies' poses are there for.
+std::pair<uint64_t, std::vector<double>> timesOf(const FieldReader& fields, const Recording& head);
 
 /// Where the chunks are.
 struct Index {

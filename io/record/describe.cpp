@@ -39,6 +39,11 @@ std::string shapesText(const Recording& head) {
   return text.empty() ? "none" : text;
 }
 
+std::string framesText(const RecordingInfo& info) {
+  const std::string count = std::to_string(info.frames);
+  return info.frames == 0 ? count : count + ", " + number(info.firstTime) + " s to " + number(info.lastTime) + " s";
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> describeRecording(const std::filesystem::path& path) {
@@ -53,11 +58,12 @@ std::vector<std::pair<std::string, std::string>> describeRecording(const std::fi
       {"bodies", bodiesText(head)},
       {"shapes", shapesText(head)},
       {"joints", std::to_string(head.joints.size())},
-      {"frames", std::to_string(info.frames) + ", " + number(info.firstTime) + " s to " + number(info.lastTime) + " s"},
+      {"frames", framesText(info)},
       {"finished", info.finished ? "yes" : "no"},
   };
   if (head.dt > 0) lines.emplace_back("step", number(head.dt) + " s");
-  lines.insert(lines.end(), head.report.begin(), head.report.end());
+  // The run's own report counts bodies and shapes, too.
+  for (const auto& [label, value] : head.report) lines.emplace_back("run: " + label, value);
   for (const std::string& note : info.notes) lines.emplace_back("note", note);
   for (const std::string& damage : reader.verify()) lines.emplace_back("damage", damage);
   return lines;

@@ -2,6 +2,7 @@
 #include "io/record/export.h"
 
 #include <charconv>
+#include <optional>
 
 #include "io/record/json.h"
 
@@ -103,7 +104,10 @@ void printHead(std::ostream& out, const Recording& head) {
     printSize(out, shape.geometry);
     if (const uint32_t number = surfaces.add(shape.geometry); number != kNotRecorded) out << ",\"surface\":" << number;
     out << ",\"position\":" << jsonList(shape.pose.position) << ",\"rotation\":" << quatList(shape.pose.rotation)
-        << (shape.trigger ? ",\"trigger\":true}" : "}");
+        << (shape.trigger ? ",\"trigger\":true" : "");
+    if (const auto& c = shape.color)
+      out << ",\"color\":[" << +c->red << ',' << +c->green << ',' << +c->blue << ',' << +c->alpha << ']';
+    out << '}';
   });
   printList(out << ",\n", "surfaces", surfaces.all(), [&](const Surfaces::Data& data) { printSurface(out, data); });
   printList(out << ",\n", "joints", head.joints, [&](const RecordedJoint& joint) {
@@ -139,13 +143,40 @@ void printFrame(std::ostream& out, const RecordedFrame& f) {
 
 }  // namespace
 
-void exportCsv(RecordReader& reader, std::ostream& out) {
+std::vector<std::string> eachFrame(RecordReader& reader, const std::function<bool(const RecordedFrame&)>& use) {
+  std::vector<std::string> leftOut;
+  std::string why;
+  uint64_t first = 0;
+  const auto say = [&](uint64_t end) {
+    if (!why.empty())
+      leftOut.push_back("frames " + std::to_string(first) + " to " + std::to_string(end - 1) + " are left out: " + why);
+    why.clear();
+  };
+  const uint64_t count = reader.frameCount();
+  for (uint64_t i = 0; i < count; ++i) {
+    std::optional<RecordedFrame> frame;
+    try {
+      frame = reader.frame(i);
+    } catch (const FileError& e) {
+      if (why == e.what()) continue;
+      say(i);
+      why = e.what();
+      first = i;
+    }
+    if (!frame) continue;
+    say(i);
+    if (!use(*frame)) return leftOut;
+  }
+  say(count);
+  return leftOut;
+}
+
+std::vector<std::string> exportCsv(RecordReader& reader, std::ostream& out) {
   std::vector<std::string> names;
   for (const RecordedBody& body : reader.head().bodies) names.push_back(csvField(body.name));
   out << "time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n";
   std::string rows;
-  for (uint64_t k = 0; k < reader.frameCount() && out; ++k) {
-    const RecordedFrame f = reader.frame(k);
+  return eachFrame(reader, [&](const RecordedFrame& f) {
     rows.clear();
     for (size_t i = 0; i < names.size(); ++i) {
       const auto& [p, q] = f.poses[i];
@@ -162,18 +193,21 @@ void exportCsv(RecordReader& reader, std::ostream& out) {
       for (const float v : {l.x, l.y, l.z, w.x, w.y, w.z}) appendNumber(rows, v);
       rows += '\n';
     }
-    out << rows;
-  }
+    return static_cast<bool>(out << rows);
+  });
 }
 
-void exportJson(RecordReader& reader, std::ostream& out) {
+std::vector<std::string> exportJson(RecordReader& reader, std::ostream& out) {
   printHead(out, reader.head());
   out << ",\n\"frames\":[";
-  for (uint64_t k = 0; k < reader.frameCount() && out; ++k) {
-    out << (k ? ",\n" : "\n");
-    printFrame(out, reader.frame(k));
-  }
+  const char* comma = "\n";
+  std::vector<std::string> leftOut = eachFrame(reader, [&](const RecordedFrame& f) {
+    printFrame(out << comma, f);
+    comma = ",\n";
+    return static_cast<bool>(out);
+  });
   out << "]}\n";
+  return leftOut;
 }
 
 }  // namespace avbd

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "io/record/chunk.h"
 #include "io/record/json.h"
 #include "io/record/sample.h"
 #include "io/record/writer.h"
@@ -103,7 +104,7 @@ TEST(RecordExport, McapIsWhatTheSpecificationSays) {
   const auto file = folder.write("a.mcap", bytes);
   EXPECT_EQ(checked(file),
             "/scene foxglove.SceneUpdate 1\n/tf foxglove.FrameTransforms 600\n/figures avbd.Figures 600\n"
-            "/contacts avbd.Contacts 400\n/events avbd.Events 300\n");
+            "/contacts avbd.Contacts 599\n/events avbd.Events 300\n");
   const std::string text = checked(file, "/tf 7");
   const Json tf = Json::parse(text.substr(text.find('{')));
   const RecordedFrame f = reader.frame(7);
@@ -117,6 +118,60 @@ TEST(RecordExport, McapIsWhatTheSpecificationSays) {
     damaged[at] ^= 4;
     EXPECT_TRUE(checked(folder.write("b.mcap", damaged)).starts_with("refused")) << at;
   }
+}
+
+TEST(RecordExport, PackedMcapHoldsTheSame) {
+  if (!hasZstd()) GTEST_SKIP() << "this build packs nothing";
+  const Folder folder;
+  RecordReader reader(sampleFile(folder, 60));
+  std::ostringstream plain, packed;
+  exportMcap(reader, plain, {.compress = false});
+  exportMcap(reader, packed);
+  EXPECT_LT(packed.str().size(), plain.str().size() / 2);
+  const auto a = folder.write("a.mcap", plain.str()), b = folder.write("b.mcap", packed.str());
+  for (const char* more : {"", "/scene 0", "/tf 59", "/contacts 30", "/events 7"}) {
+    EXPECT_EQ(checked(a, more), checked(b, more));
+    EXPECT_FALSE(checked(b, more).starts_with("refused")) << checked(b, more);
+  }
+}
+
+TEST(RecordExport, ContactsThatEndedAreTakenOff) {
+  const Folder folder;
+  RecordReader reader(sampleFile(folder, 9));
+  std::ostringstream out;
+  exportMcap(reader, out, {.compress = false});
+  const auto file = folder.write("a.mcap", out.str());
+  // Of frames 0 to 8 every third one has none; before the first there is nothing to take off.
+  EXPECT_NE(checked(file).find("/contacts avbd.Contacts 8\n"), std::string::npos) << checked(file);
+  const std::string third = checked(file, "/contacts 2");
+  EXPECT_EQ(Json::parse(third.substr(third.find('{')))["contacts"].size(), 0u);
+}
+
+TEST(RecordExport, ADamagedChunkCostsItsFramesOnly) {
+  const Folder folder;
+  const auto path = sampleFile(folder, 200);
+  std::string bytes = Folder::read(path);
+  const RecordReader sound(path);
+  for (size_t i = 0; i < sound.index().offsets.size(); ++i)
+    if (sound.index().firsts[i] == 64) bytes[sound.index().offsets[i] + 200] ^= 1;
+  RecordReader reader(folder.write("damaged.avbd", bytes));
+  ASSERT_TRUE(reader.info().finished);
+  // The block ends where velocities change: each sample frame is a chunk of its own.
+  const size_t lost = 1;
+  std::ostringstream csv, json, mcap;
+  const auto notes = exportCsv(reader, csv);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("frames 64 to 64 are left out"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("chunk FRAM at byte"), std::string::npos) << notes[0];
+  const std::string rows = csv.str();
+  EXPECT_EQ(static_cast<size_t>(std::count(rows.begin(), rows.end(), '\n')), 1 + 8 * (200 - lost));
+  EXPECT_EQ(exportJson(reader, json), notes);
+  EXPECT_EQ(Json::parse(json.str())["frames"].size(), 200 - lost);
+  EXPECT_EQ(exportMcap(reader, mcap), notes);
+  EXPECT_NE(checked(folder.write("a.mcap", mcap.str())).find("/tf foxglove.FrameTransforms 199"), std::string::npos);
+  std::vector<std::string> leftOut;
+  EXPECT_EQ(reader.readAll(1, &leftOut).frames.size(), 200 - lost);
+  EXPECT_EQ(leftOut.size(), 1u);
 }
 
 TEST(RecordExport, McapOfNoFramesIsStillAFile) {

@@ -109,6 +109,11 @@ FieldReader::FieldReader(std::span<const uint8_t> bytes, std::string place) : pl
   }
 }
 
+size_t FieldReader::count(uint16_t id) const {
+  const auto it = fields_.find(id);
+  return it == fields_.end() ? 0 : it->second.count;
+}
+
 size_t FieldReader::countOf(uint16_t id, size_t width) const {
   const auto it = fields_.find(id);
   if (it == fields_.end()) return 0;
@@ -139,7 +144,9 @@ std::string FieldReader::text(uint16_t id) const {
   return {all.begin(), all.end()};
 }
 
-std::vector<std::string> FieldReader::texts(uint16_t id) const {
+std::vector<std::string> FieldReader::texts(uint16_t id, size_t most) const {
+  if (count(id) > most)
+    refuse(id, "has " + std::to_string(count(id)) + " elements, more than a file of this size may hold");
   const std::string together = text(static_cast<uint16_t>(id + 1));
   std::vector<std::string> out;
   size_t at = 0;

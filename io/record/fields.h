@@ -54,6 +54,8 @@ class FieldReader {
   FieldReader(std::span<const uint8_t> bytes, std::string place);
 
   bool has(uint16_t id) const { return fields_.count(id) != 0; }
+  /// Elements of a field, before any of them is decoded; 0 if there is no such field.
+  size_t count(uint16_t id) const;
   /// Empty if there is no such field.
   template <class T>
   std::vector<T> list(uint16_t id) const {
@@ -74,7 +76,8 @@ class FieldReader {
     return has(id) ? listOf<T>(id, 1)[0] : otherwise;
   }
   std::string text(uint16_t id) const;
-  std::vector<std::string> texts(uint16_t id) const;
+  /// No more than `most` of them.
+  std::vector<std::string> texts(uint16_t id, size_t most = SIZE_MAX) const;
   const std::string& place() const { return place_; }
   [[noreturn]] void refuse(uint16_t id, const std::string& why) const;
 

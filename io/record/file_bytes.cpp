@@ -33,6 +33,19 @@ FileBytes::~FileBytes() {
 FileBytes::FileBytes(FileBytes&& other) noexcept
     : name_(std::move(other.name_)), file_(std::exchange(other.file_, -1)) {}
 
+FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
+  std::swap(name_, other.name_);
+  std::swap(file_, other.file_);
+  return *this;
+}
+
+bool FileBytes::isAt(const std::filesystem::path& path) const {
+  struct stat here {
+  }, there{};
+  if (::fstat(file_, &here) != 0 || ::stat(path.c_str(), &there) != 0) return true;
+  return here.st_dev == there.st_dev && here.st_ino == there.st_ino;
+}
+
 uint64_t FileBytes::size() const {
   struct stat facts {};
   if (::fstat(file_, &facts) != 0) fail(errno);

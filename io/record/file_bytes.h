@@ -14,10 +14,12 @@ class FileBytes {
   FileBytes(const std::filesystem::path& path, Access access);
   ~FileBytes();
   FileBytes(FileBytes&& other) noexcept;
-  FileBytes& operator=(FileBytes&&) = delete;
+  FileBytes& operator=(FileBytes&& other) noexcept;
 
   const std::string& name() const { return name_; }
   uint64_t size() const;
+  /// False if another file has this path now; a path that cannot be asked says nothing.
+  bool isAt(const std::filesystem::path& path) const;
   /// Fills `out` as far as the file reaches; returns how many bytes that are.
   size_t read(uint64_t offset, std::span<uint8_t> out) const;
   void append(std::span<const uint8_t> bytes);

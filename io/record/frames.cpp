@@ -1,6 +1,7 @@
 // Frames as columns, and the columns as fields.
 #include "io/file_error.h"
 #include "io/record/content.h"
+#include "io/record/limits.h"
 
 namespace avbd::record {
 namespace {
@@ -34,6 +35,8 @@ enum FrameField : uint16_t {
   kEventImpulse = 37,
 };
 
+constexpr size_t kFieldHeads = 32 * 12;  // of all fields
+
 void append(std::vector<float>& out, Vec3 v) { out.insert(out.end(), {v.x, v.y, v.z}); }
 void append(std::vector<double>& out, Vec3d v) { out.insert(out.end(), {v.x, v.y, v.z}); }
 Vec3 vectorAt(const std::vector<float>& list, size_t i) {
@@ -60,11 +63,21 @@ size_t sum(const std::vector<uint32_t>& counts, size_t end) {
   return total;
 }
 
+/// Shapes are named or unknown.
+void checkShapes(const FieldReader& f, uint16_t id, const std::vector<uint32_t>& shapes, const Recording& head) {
+  for (const uint32_t shape : shapes)
+    if (shape != kNotRecorded && shape >= head.shapes.size()) f.refuse(id, "names a shape that there is not");
+}
+
 }  // namespace
 
 size_t FrameBlock::bytes() const {
-  return 8 * (positions.size() + 4 * times.size() + eventPosition.size()) +
+  return kFieldHeads + 8 * (positions.size() + 6 * times.size() + eventPosition.size()) +
          4 * (rotations.size() + 2 * linear.size() + 12 * contactA.size() + 8 * eventA.size());
+}
+
+size_t FrameBlock::bytesOf(const RecordedFrame& f) {
+  return 8 * 6 + 40 * f.poses.size() + 24 * f.velocities.size() + 48 * f.contacts.size() + 56 * f.events.size();
 }
 
 void FrameBlock::add(const RecordedFrame& f, const Recording& head) {
@@ -162,19 +175,21 @@ Bytes framesContent(const FrameBlock& b) {
   return out.bytes();
 }
 
-std::pair<uint64_t, std::vector<double>> timesOf(const FieldReader& f) {
+std::pair<uint64_t, std::vector<double>> timesOf(const FieldReader& f, const Recording& head) {
+  const size_t bodies = f.value<uint32_t>(kBodyCount, 0), all = f.count(kTimes) * bodies;
+  if (bodies != head.bodies.size()) f.refuse(kBodyCount, "does not fit the bodies");
+  if (f.count(kPositions) != 3 * all || f.count(kRotations) != 4 * all) f.refuse(kTimes, "does not fit the poses");
   return {f.value<uint64_t>(kFirst, 0), f.list<double>(kTimes)};
 }
 
-FrameBlock framesOf(const FieldReader& f) {
+FrameBlock framesOf(const FieldReader& f, const Recording& head) {
   FrameBlock b;
-  std::tie(b.first, b.times) = timesOf(f);
+  std::tie(b.first, b.times) = timesOf(f, head);
   const size_t n = b.size();
   b.bodies = f.value<uint32_t>(kBodyCount, 0);
   const size_t all = n * b.bodies;
   b.positions = f.listOf<double>(kPositions, 3 * all);
   b.rotations = f.listOf<float>(kRotations, 4 * all);
-  if (all > 0 && (b.positions.empty() || b.rotations.empty())) f.refuse(kPositions, "is missing");
   b.linear = f.listOf<float>(kLinear, 3 * all);
   b.angular = f.listOf<float>(kAngular, 3 * all);
   b.hasVelocities = f.has(kLinear);
@@ -193,6 +208,7 @@ FrameBlock framesOf(const FieldReader& f) {
   if (contacts > 0 && (b.contactOffset.empty() || b.contactForce.empty())) f.refuse(kContactOffset, "is missing");
   b.eventCounts = f.listOf<uint32_t>(kEventCounts, n);
   const size_t events = sum(b.eventCounts, b.eventCounts.size());
+  if (events > kEventsMost) f.refuse(kEventCounts, "names more events than a chunk may hold");
   b.eventKind = f.listOf<uint8_t>(kEventKind, events);
   if (events > 0 && b.eventKind.empty()) f.refuse(kEventKind, "is missing");
   b.eventA = f.listOf<uint32_t>(kEventA, events);
@@ -201,6 +217,12 @@ FrameBlock framesOf(const FieldReader& f) {
   b.eventNormal = f.listOf<float>(kEventNormal, 3 * events);
   b.eventSpeed = f.listOf<float>(kEventSpeed, events);
   b.eventImpulse = f.listOf<float>(kEventImpulse, events);
+  checkShapes(f, kContactA, b.contactA, head);
+  checkShapes(f, kContactB, b.contactB, head);
+  checkShapes(f, kEventA, b.eventA, head);
+  checkShapes(f, kEventB, b.eventB, head);
+  for (const uint8_t kind : b.eventKind)
+    if (kind > static_cast<uint8_t>(RecordedEventKind::Hit)) f.refuse(kEventKind, "names a kind that there is not");
   return b;
 }
 

@@ -244,19 +244,24 @@ class McapFile {
 
 }  // namespace
 
-void exportMcap(RecordReader& reader, std::ostream& out, const McapOptions& options) {
+std::vector<std::string> exportMcap(RecordReader& reader, std::ostream& out, const McapOptions& options) {
   McapFile file(out, options.compress);
   const McapMessages messages(reader.head());
-  for (uint64_t k = 0; k < reader.frameCount() && out; ++k) {
-    const RecordedFrame f = reader.frame(k);
+  bool first = true, touching = false;
+  std::vector<std::string> leftOut = eachFrame(reader, [&](const RecordedFrame& f) {
     const auto time = static_cast<uint64_t>(std::llround(std::clamp(f.time, 0.0, 9e9) * 1e9));
-    if (k == 0) file.message(kMcapScene, time, messages.scene(time));
+    if (first) file.message(kMcapScene, time, messages.scene(time));
+    first = false;
     file.message(kMcapTransforms, time, messages.transforms(f, time));
     file.message(kMcapFigures, time, messages.figures(f));
-    if (!f.contacts.empty()) file.message(kMcapContacts, time, messages.contacts(f));
+    // What is shown is the last message: an empty one takes contacts off that have ended.
+    if (touching || !f.contacts.empty()) file.message(kMcapContacts, time, messages.contacts(f));
+    touching = !f.contacts.empty();
     if (!f.events.empty()) file.message(kMcapEvents, time, messages.events(f));
-  }
+    return static_cast<bool>(out);
+  });
   file.finish();
+  return leftOut;
 }
 
 }  // namespace avbd

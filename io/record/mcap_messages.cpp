@@ -105,8 +105,14 @@ class Primitives {
   std::string color_, cubes_, spheres_, cylinders_, triangles_;
 };
 
-/// Bodies differ by the golden ratio's steps around a simple colour wheel.
-std::string colorText(uint32_t body, BodyType type, bool trigger) {
+/// The file's own, opaque; else bodies differ by the golden ratio's steps around a simple colour wheel.
+std::string colorText(const RecordedShape& shape, BodyType type) {
+  const auto text = [&](double r, double g, double b) {
+    return "\"color\":{\"r\":" + jsonNumber(r) + ",\"g\":" + jsonNumber(g) + ",\"b\":" + jsonNumber(b) +
+           ",\"a\":" + (shape.trigger ? "0.3" : "1") + "}";
+  };
+  if (const auto& c = shape.color) return text(c->red / 255.0, c->green / 255.0, c->blue / 255.0);
+  const uint32_t body = shape.body;
   const double hue = type == BodyType::Static ? 0 : static_cast<double>(body * 618u % 1000u) / 1000;
   const auto channel = [&](double shift) {
     if (type == BodyType::Static) return 0.5;
@@ -114,8 +120,7 @@ std::string colorText(uint32_t body, BodyType type, bool trigger) {
     const double wave = wrapped < 0.5 ? 2 * wrapped : 2 - 2 * wrapped;
     return 0.25 + 0.65 * wave;
   };
-  return "\"color\":{\"r\":" + jsonNumber(channel(0)) + ",\"g\":" + jsonNumber(channel(1.0 / 3)) +
-         ",\"b\":" + jsonNumber(channel(2.0 / 3)) + ",\"a\":" + (trigger ? "0.3" : "1") + "}";
+  return text(channel(0), channel(1.0 / 3), channel(2.0 / 3));
 }
 
 }  // namespace
@@ -145,7 +150,7 @@ std::string McapMessages::scene(uint64_t nanoseconds) const {
   std::string out = "{\"deletions\":[],\"entities\":[";
   for (size_t i = 0; i < head_.shapes.size(); ++i) {
     const RecordedShape& shape = head_.shapes[i];
-    Primitives primitives(shape.pose, colorText(shape.body, head_.bodies[shape.body].type, shape.trigger));
+    Primitives primitives(shape.pose, colorText(shape, head_.bodies[shape.body].type));
     std::visit(primitives, shape.geometry);
     out += std::string(i ? "," : "") + "{\"timestamp\":" + timeText(nanoseconds) +
            ",\"frame_id\":" + frames_[shape.body] + ",\"id\":\"shape_" + std::to_string(i) +

@@ -134,6 +134,7 @@ TEST(Record, WhatGoesInComesOut) {
       EXPECT_EQ(reader.head().shapes[i].geometry.index(), head.shapes[i].geometry.index());
       EXPECT_EQ(reader.head().shapes[i].pose, head.shapes[i].pose);
       EXPECT_EQ(reader.head().shapes[i].trigger, head.shapes[i].trigger);
+      EXPECT_EQ(reader.head().shapes[i].color, head.shapes[i].color);
     }
     EXPECT_EQ(std::get<Cone>(reader.head().shapes[5].geometry).rounding, 0.02f);
     EXPECT_EQ(std::get<Box>(reader.head().shapes[1].geometry).z, 0.3f);

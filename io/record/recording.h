@@ -3,9 +3,12 @@
 
 #include <avbd/avbd.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "io/color.h"
 
 namespace avbd {
 
@@ -17,6 +20,7 @@ struct RecordedShape {
   Geometry geometry;
   Pose pose;  ///< in the body's frame
   bool trigger = false;
+  std::optional<Color> color{};  ///< as the model's file gives it; no value: whoever draws it chooses
 };
 
 struct RecordedBody {

@@ -41,6 +41,7 @@ inline Recording sampleHead(size_t bodies = 3) {
     r.shapes.push_back(
         {static_cast<uint32_t>(i), kinds[i % 7], {{0.1 * static_cast<double>(i), 0, 1e9}, {0, 1, 0, 0}}, i % 2 == 1});
   }
+  if (bodies > 2) r.shapes[1].color = Color{12, 200, 255, 128};
   if (bodies > 1) r.joints = {{0, 1, {1, 2, 3}, {4, 5, 6}}, {kNotRecorded, 1, {1e6, 0, 0}, {0, 0, 0.1}}};
   return r;
 }

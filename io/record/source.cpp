@@ -16,9 +16,12 @@ RecordSource::RecordSource(const Model& model) {
     bodies_[body.id.index] = slot;
     ids_.push_back(body.id);
     head_.bodies.push_back({body.name, world.type(body.id)});
-    for (const ShapeId shape : world.shapes(body.id)) {
+    const std::vector<ShapeId> shapes = world.shapes(body.id);
+    for (size_t i = 0; i < shapes.size(); ++i) {
+      const ShapeId shape = shapes[i];
       shapes_[shape.index] = static_cast<uint32_t>(head_.shapes.size());
       head_.shapes.push_back({slot, world.geometry(shape), world.localPose(shape), world.isTrigger(shape)});
+      if (i < body.colors.size()) head_.shapes.back().color = body.colors[i];
     }
   }
   addJoints(world);

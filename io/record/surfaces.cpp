@@ -32,9 +32,12 @@ enum ShapeField : uint16_t {
   kSurface = 4,
   kPosition = 5,
   kRotation = 6,
-  kFlags = 7
+  kFlags = 7,
+  kColors = 8
 };
 constexpr uint8_t kTriggerFlag = 1;
+constexpr uint8_t kFirstShared = 7;  // hull; mesh and height field follow, as the kinds of surfaces do
+constexpr uint8_t kNoSurface = 255;
 
 void append(std::vector<float>& out, Vec3 v) { out.insert(out.end(), {v.x, v.y, v.z}); }
 
@@ -109,9 +112,14 @@ std::vector<Vec3> pointsOf(const FieldReader& f, uint16_t id) {
 
 std::shared_ptr<const HullData> hullOf(const FieldReader& f) {
   const std::vector<Vec3> points = pointsOf(f, kHullVertices);
-  // They are the vertices of a finished hull: nothing is to be left out.
-  float extent = 0;
-  for (const Vec3 p : points) extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  // They are the vertices of a finished hull: nothing is to be left out, however far from the origin it lies.
+  Vec3 lower = points.empty() ? Vec3{} : points[0], upper = lower;
+  for (const Vec3 p : points) {
+    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
+    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+  }
+  const Vec3 size = upper - lower;
+  const float extent = std::max({size.x, size.y, size.z});
   HullDef def;
   def.points = points;
   def.tolerance = extent * 1e-6f;
@@ -173,6 +181,19 @@ Geometry withData(const Surfaces::Data& data, Vec3 scale) {
   return shape;
 }
 
+// Red in the lowest byte; 0, which nobody sees, is no colour.
+uint32_t packed(const std::optional<Color>& color) {
+  if (!color) return 0;
+  const auto at = [](uint8_t byte, int shift) { return static_cast<uint32_t>(byte) << shift; };
+  return at(color->red, 0) | at(color->green, 8) | at(color->blue, 16) | at(color->alpha, 24);
+}
+
+std::optional<Color> unpacked(uint32_t color) {
+  if (color == 0) return {};
+  const auto byte = [&](int shift) { return static_cast<uint8_t>(color >> shift & 0xff); };
+  return Color{byte(0), byte(8), byte(16), byte(24)};
+}
+
 }  // namespace
 
 uint32_t Surfaces::add(const Geometry& geometry) {
@@ -199,7 +220,7 @@ Bytes surfaceContent(const Surfaces::Data& data) {
 }
 
 Bytes shapesContent(const Recording& r, Surfaces& surfaces) {
-  std::vector<uint32_t> bodies, numbers;
+  std::vector<uint32_t> bodies, numbers, colors;
   std::vector<uint8_t> kinds, flags;
   std::vector<float> sizes, rotations;
   std::vector<double> positions;
@@ -213,6 +234,7 @@ Bytes shapesContent(const Recording& r, Surfaces& surfaces) {
     positions.insert(positions.end(), {p.x, p.y, p.z});
     rotations.insert(rotations.end(), {q.w, q.x, q.y, q.z});
     flags.push_back(shape.trigger ? kTriggerFlag : 0);
+    colors.push_back(packed(shape.color));
   }
   FieldWriter out;
   out.list(kBody, bodies);
@@ -222,29 +244,30 @@ Bytes shapesContent(const Recording& r, Surfaces& surfaces) {
   out.list(kPosition, positions, Encoding::Shuffled);
   out.list(kRotation, rotations, Encoding::Shuffled);
   out.list(kFlags, flags);
+  if (std::any_of(colors.begin(), colors.end(), [](uint32_t color) { return color != 0; })) out.list(kColors, colors);
   return out.bytes();
 }
 
 void HeadReader::takeSurface(const FieldReader& f) {
-  const auto kind = f.value<uint8_t>(kKind, 255);
+  const auto kind = f.value<uint8_t>(kKind, kNoSurface);
   try {
-    if (kind == 0) return surfaces.emplace_back(hullOf(f)), void();
-    if (kind == 1) return surfaces.emplace_back(meshOf(f)), void();
-    if (kind == 2) return surfaces.emplace_back(fieldOf(f)), void();
+    if (kind == 0) return surfaces.push_back({kind, hullOf(f)});
+    if (kind == 1) return surfaces.push_back({kind, meshOf(f)});
+    if (kind == 2) return surfaces.push_back({kind, fieldOf(f)});
+    notes.push_back(f.place() + ": a surface of kind " + std::to_string(kind) + " is left out");
   } catch (const Error& e) {
-    throw FileError(f.place() + ": " + e.what());
+    notes.push_back(f.place() + ": a surface is left out: " + e.what());
   }
-  notes.push_back(f.place() + ": a surface of kind " + std::to_string(kind) + " is left out");
-  surfaces.emplace_back(std::shared_ptr<const HullData>());
+  surfaces.push_back({kind, std::shared_ptr<const HullData>()});  // keeps its number, which shapes refer to
 }
 
 Geometry HeadReader::geometryOf(uint8_t kind, const float size[4], uint32_t surface, const FieldReader& f) {
   const Vec3 scale{size[0], size[1], size[2]};
-  const auto dataOf = [&](size_t wanted) -> const Surfaces::Data& {
-    if (surface >= surfaces.size() || surfaces[surface].index() != wanted)
-      f.refuse(kSurface, "names a surface that there is not");
-    return surfaces[surface];
-  };
+  const bool shared = kind >= kFirstShared && kind < kFirstShared + 3;
+  if (shared && (surface >= surfaces.size() || surfaces[surface].kind != kind - kFirstShared))
+    f.refuse(kSurface, "names a surface that there is not");
+  const Geometry nothing = Sphere{0};  // keeps its number, which contacts refer to, and shows as nothing
+  if (shared && std::visit([](const auto& data) { return data == nullptr; }, surfaces[surface].data)) return nothing;
   switch (kind) {
     case 0:
       return Sphere{size[0]};
@@ -261,27 +284,29 @@ Geometry HeadReader::geometryOf(uint8_t kind, const float size[4], uint32_t surf
     case 6:
       return Ellipsoid{size[0], size[1], size[2]};
     case 7: {
-      Geometry hull = withData<Hull>(dataOf(0), scale);
+      Geometry hull = withData<Hull>(surfaces[surface].data, scale);
       std::get<Hull>(hull).rounding = size[3];
       return hull;
     }
     case 8:
-      return withData<Mesh>(dataOf(1), scale);
+      return withData<Mesh>(surfaces[surface].data, scale);
     case 9:
-      return withData<HeightField>(dataOf(2), scale);
+      return withData<HeightField>(surfaces[surface].data, scale);
     default:
       notes.push_back(f.place() + ": a shape of kind " + std::to_string(kind) + " is left out");
-      return Sphere{0};  // keeps its number, which contacts refer to, and shows as nothing
+      return nothing;
   }
 }
 
 void HeadReader::takeShapes(const FieldReader& f) {
+  refuseMore(f, kBody, recording.shapes.size());
   const std::vector<uint32_t> bodies = f.list<uint32_t>(kBody);
   const size_t n = bodies.size();
   const std::vector<uint8_t> kinds = f.listOf<uint8_t>(kGeometry, n), flags = f.listOf<uint8_t>(kFlags, n);
   const std::vector<float> sizes = f.listOf<float>(kSize, 4 * n), rotations = f.listOf<float>(kRotation, 4 * n);
   const std::vector<uint32_t> numbers = f.listOf<uint32_t>(kSurface, n);
   const std::vector<double> positions = f.listOf<double>(kPosition, 3 * n);
+  const std::vector<uint32_t> colors = f.listOf<uint32_t>(kColors, n);
   if (n > 0 && (kinds.empty() || sizes.empty() || numbers.empty() || rotations.empty() || positions.empty()))
     f.refuse(kBody, "stands alone");
   for (size_t i = 0; i < n; ++i) {
@@ -291,7 +316,8 @@ void HeadReader::takeShapes(const FieldReader& f) {
     recording.shapes.push_back({bodies[i],
                                 geometryOf(kinds[i], &sizes[4 * i], numbers[i], f),
                                 {{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}},
-                                !flags.empty() && (flags[i] & kTriggerFlag) != 0});
+                                !flags.empty() && (flags[i] & kTriggerFlag) != 0,
+                                colors.empty() ? std::nullopt : unpacked(colors[i])});
   }
 }
 

@@ -94,7 +94,25 @@ TEST(RecordSurfaces, ComeBackAndAreStoredOnce) {
   EXPECT_EQ(terrain.thickness(), 3);
 }
 
-TEST(RecordSurfaces, ASurfaceThatCannotBeMadeIsRefusedByName) {
+TEST(RecordSurfaces, AHullFarFromItsOriginComesBack) {
+  const Folder folder;
+  Chance chance;
+  std::vector<Vec3> cloud;
+  while (cloud.size() < 30) cloud.push_back(Vec3{5000, -3000, 0} + 0.05f * chance.vector());
+  const auto hull = makeHull({cloud});
+  Recording r;
+  r.bodies = {{"all", BodyType::Static}};
+  r.shapes.push_back({0, Hull{hull}, {}});
+  const auto path = folder.file("a.avbd");
+  RecordWriter(path, r).finish();
+  const RecordReader reader(path);
+  EXPECT_TRUE(reader.info().notes.empty());
+  const auto* back = std::get_if<Hull>(&reader.head().shapes[0].geometry);
+  ASSERT_NE(back, nullptr);
+  EXPECT_EQ(back->data->vertices().size(), hull->vertices().size());
+}
+
+TEST(RecordSurfaces, ASurfaceThatCannotBeMadeIsNamedAndShowsAsNothing) {
   const Folder folder;
   Recording r;
   r.bodies = {{"all", BodyType::Static}};
@@ -107,13 +125,24 @@ TEST(RecordSurfaces, ASurfaceThatCannotBeMadeIsRefusedByName) {
   flat.list(10, std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
   const Bytes chunk = chunkBytes(kSurfaces, flat.bytes(), false);
   bytes.insert(bytes.end(), chunk.begin(), chunk.end());
-  try {
-    RecordReader reader(folder.write("b.avbd", bytes));
-    FAIL();
-  } catch (const FileError& e) {
-    EXPECT_NE(std::string(e.what()).find("chunk SURF"), std::string::npos) << e.what();
-    EXPECT_NE(std::string(e.what()).find("HullDef"), std::string::npos) << e.what();
-  }
+  FieldWriter shape;
+  shape.list(1, std::vector<uint32_t>{0});
+  shape.list(2, std::vector<uint8_t>{7});
+  shape.list(3, std::vector<float>{1, 1, 1, 0});
+  shape.list(4, std::vector<uint32_t>{0});
+  shape.list(5, std::vector<double>{0, 0, 0});
+  shape.list(6, std::vector<float>{1, 0, 0, 0});
+  const Bytes shapes = chunkBytes(kShapes, shape.bytes(), false);
+  bytes.insert(bytes.end(), shapes.begin(), shapes.end());
+  const RecordReader reader(folder.write("b.avbd", bytes));
+  const auto& notes = reader.info().notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.find("chunk SURF") != std::string::npos && note.find("HullDef") != std::string::npos;
+  }));
+  ASSERT_EQ(reader.head().shapes.size(), 1u);
+  const auto* nothing = std::get_if<Sphere>(&reader.head().shapes[0].geometry);
+  ASSERT_NE(nothing, nullptr);
+  EXPECT_EQ(nothing->radius, 0);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // Frames into chunks, chunks into the file, the index at its end.
 #include "io/record/writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "io/record/chunk.h"
+#include "io/record/limits.h"
 #include "io/record/reader.h"
 
 namespace avbd {
@@ -17,7 +19,15 @@ namespace {
   throw std::invalid_argument("Recording." + field + " = " + value + ": " + range);
 }
 
+constexpr uint64_t kIndexHeads = 5 * 12;  // of its fields
+
+void checkReport(const std::vector<std::pair<std::string, std::string>>& report) {
+  if (report.size() > kReportMost)
+    refuse("report", std::to_string(report.size()) + " lines", "must be at most " + std::to_string(kReportMost));
+}
+
 void checkHead(const Recording& r) {
+  checkReport(r.report);
   const float up = length(r.up);
   if (!(up > 0) || !std::isfinite(up)) refuse("up", "zero or not finite", "must be a direction");
   const std::string range = "must be below the number of bodies, " + std::to_string(r.bodies.size());
@@ -41,18 +51,38 @@ const Recording& checked(const Recording& r) {
 
 }  // namespace
 
-RecordWriter::RecordWriter(const std::filesystem::path& path, const Recording& head, const RecordOptions& options)
-    : file_((checked(head), path), FileBytes::Access::Create), options_(options), head_(withoutFrames(head)) {
-  open_ = true;
-  file_.append(fileHead());
-  at_ = kFileHeadBytes;
-  write(kMeta, metaContent(head_));
-  write(kBodies, bodiesContent(head_));
+// What a reader would refuse is not written. Content that packs too well to be told from a bomb is not packed.
+std::vector<RecordWriter::Part> RecordWriter::partsOf(const Recording& r, bool compress) {
+  std::vector<Part> parts;
+  uint64_t raw = 0, size = kFileHeadBytes;
+  bool plausible = true;
+  const auto add = [&](uint32_t type, const char* name, const Bytes& content, size_t things = 0) {
+    if (content.size() > kChunkMost)
+      refuse(name, std::to_string(content.size()) + " bytes", "must be at most " + std::to_string(kChunkMost));
+    parts.push_back({type, chunkBytes(type, content, compress)});
+    raw += content.size();
+    size += parts.back().chunk.size();
+    plausible = plausible && raw <= headMost(size) && things <= thingsMost(size);
+  };
+  add(kMeta, "title", metaContent(r));
+  add(kBodies, "bodies", bodiesContent(r), r.bodies.size());
   Surfaces surfaces;
-  const Bytes shapes = shapesContent(head_, surfaces);
-  for (const Surfaces::Data& data : surfaces.all()) write(kSurfaces, surfaceContent(data));
-  write(kShapes, shapes);
-  write(kJoints, jointsContent(head_));
+  const Bytes shapes = shapesContent(r, surfaces);
+  for (const Surfaces::Data& data : surfaces.all()) add(kSurfaces, "shapes[].data", surfaceContent(data));
+  add(kShapes, "shapes", shapes, r.shapes.size());
+  add(kJoints, "joints", jointsContent(r), r.joints.size());
+  return plausible || !compress ? parts : partsOf(r, false);
+}
+
+RecordWriter::RecordWriter(const std::filesystem::path& path, const Recording& head, const RecordOptions& options)
+    : RecordWriter(path, head, options, partsOf(checked(head), options.compress)) {}
+
+RecordWriter::RecordWriter(const std::filesystem::path& path, const Recording& head, const RecordOptions& options,
+                           const std::vector<Part>& parts)
+    : file_(path, FileBytes::Access::Create), options_(options), head_(withoutFrames(head)) {
+  append(fileHead());
+  for (const Part& part : parts) write(part.type, part.chunk);
+  open_ = true;
 }
 
 RecordWriter::RecordWriter(FileBytes file, Recording head, Index index, uint64_t at, const RecordOptions& options)
@@ -80,30 +110,66 @@ RecordWriter::~RecordWriter() {
   }
 }
 
-void RecordWriter::write(uint32_t type, const Bytes& content) {
-  const Bytes bytes = chunkBytes(type, content, options_.compress);
-  file_.append(bytes);
-  if (type != kIndex) {
-    index_.offsets.push_back(at_);
-    index_.types.push_back(type);
-    index_.firsts.push_back(type == kFrames ? block_.first : 0);
-    index_.counts.push_back(type == kFrames ? static_cast<uint32_t>(block_.size()) : 0);
+// All of it or nothing: what was written in part would stand in the way of what comes next.
+void RecordWriter::append(const Bytes& bytes) {
+  try {
+    file_.append(bytes);
+  } catch (const FileError&) {
+    try {
+      file_.cut(at_);
+    } catch (const FileError&) {
+      // A device has no length to cut; why it could not be written says more.
+    }
+    throw;
   }
   at_ += bytes.size();
 }
 
-void RecordWriter::add(const RecordedFrame& f) {
+void RecordWriter::write(uint32_t type, const Bytes& chunk) {
+  const uint64_t offset = at_;
+  append(chunk);
+  index_.offsets.push_back(offset);
+  index_.types.push_back(type);
+  index_.firsts.push_back(type == kFrames ? block_.first : 0);
+  index_.counts.push_back(type == kFrames ? static_cast<uint32_t>(block_.size()) : 0);
+}
+
+void RecordWriter::check(const RecordedFrame& f) const {
   const std::string name = "frames[" + std::to_string(frameCount()) + "].";
-  if (!open_) throw std::logic_error("RecordWriter::add after finish");
   const double last = block_.size() > 0 ? block_.times.back() : index_.times.empty() ? -INFINITY : index_.times.back();
   if (!(f.time >= last) || !std::isfinite(f.time))
     refuse(name + "time", std::to_string(f.time), "must be finite and not before the last frame");
-  const size_t bodies = head_.bodies.size();
+  const size_t bodies = head_.bodies.size(), shapes = head_.shapes.size();
   const std::string range = "must be as many as the bodies, " + std::to_string(bodies);
   if (f.poses.size() != bodies) refuse(name + "poses", std::to_string(f.poses.size()), range);
   if (!f.velocities.empty() && f.velocities.size() != bodies)
     refuse(name + "velocities", std::to_string(f.velocities.size()), range);
-  if (block_.size() > 0 && block_.hasVelocities != !f.velocities.empty()) flush();
+  const auto checkShapes = [&](const char* list, const auto& items) {
+    for (const auto& item : items)
+      for (const uint32_t shape : {item.shapeA, item.shapeB})
+        if (shape != kNotRecorded && shape >= shapes)
+          refuse(name + list, std::to_string(shape), "must name one of the shapes, " + std::to_string(shapes));
+  };
+  checkShapes("contacts[].shape", f.contacts);
+  checkShapes("events[].shape", f.events);
+  for (const RecordedEvent& e : f.events)
+    if (e.kind > RecordedEventKind::Hit)
+      refuse(name + "events[].kind", std::to_string(static_cast<int>(e.kind)), "must be one of RecordedEventKind");
+  const size_t bytes = FrameBlock().bytes() + FrameBlock::bytesOf(f);
+  if (bytes > kChunkMost || f.events.size() > kEventsMost)
+    refuse(name + "contacts and events", std::to_string(bytes) + " bytes", "must fit a chunk of 2^28, and 2^22 events");
+  const uint64_t frames = frameCount() + 1, index = kIndexHeads + 8 * frames + 24 * (index_.offsets.size() + 8);
+  if (frames > framesMost(at_) || index > std::min<uint64_t>(indexMost(at_), kChunkMost))
+    refuse("frames", std::to_string(frames), "must not be so many in one file: their index could not be read");
+}
+
+void RecordWriter::add(const RecordedFrame& f) {
+  if (!open_) throw std::logic_error("RecordWriter::add after finish");
+  check(f);
+  if (block_.size() > 0 &&
+      (block_.hasVelocities != !f.velocities.empty() || block_.bytes() + FrameBlock::bytesOf(f) > kChunkMost ||
+       block_.eventKind.size() + f.events.size() > kEventsMost))
+    flush();
   if (block_.size() == 0) block_.first = next_;
   block_.add(f, head_);
   if (block_.size() >= options_.framesPerChunk || block_.bytes() >= options_.bytesPerChunk) flush();
@@ -111,7 +177,7 @@ void RecordWriter::add(const RecordedFrame& f) {
 
 void RecordWriter::flush() {
   if (block_.size() == 0) return;
-  write(kFrames, framesContent(block_));
+  write(kFrames, chunkBytes(kFrames, framesContent(block_), options_.compress));
   index_.times.insert(index_.times.end(), block_.times.begin(), block_.times.end());
   next_ = block_.first + block_.size();
   block_ = {};
@@ -119,14 +185,16 @@ void RecordWriter::flush() {
 
 void RecordWriter::finish(const std::vector<std::pair<std::string, std::string>>& report) {
   if (!open_) return;
+  checkReport(report);
   flush();
   if (!report.empty()) {
     head_.report = report;
-    write(kMeta, metaContent(head_));
+    write(kMeta, chunkBytes(kMeta, metaContent(head_), options_.compress));
   }
-  const uint64_t index = at_;
-  write(kIndex, indexContent(index_));
-  file_.append(footerBytes({index, index_.times.size()}));
+  Bytes end = chunkBytes(kIndex, indexContent(index_), options_.compress);
+  const Bytes footer = footerBytes({at_, index_.times.size()});
+  end.insert(end.end(), footer.begin(), footer.end());
+  append(end);
   open_ = false;
 }
 

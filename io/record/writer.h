@@ -22,7 +22,8 @@ struct RecordOptions {
 class RecordWriter {
  public:
   /// Begins a file with a recording's head; frames that it holds are not written. Throws std::invalid_argument for a
-  /// head that does not fit together, before the file is touched, and FileError if it cannot be written.
+  /// head that does not fit together or is too large to be read again, before the file is touched, and FileError if it
+  /// cannot be written.
   RecordWriter(const std::filesystem::path& path, const Recording& head, const RecordOptions& options = {});
   /// Goes on after the last complete chunk of a file: one that was finished, or whose writer died.
   static RecordWriter reopen(const std::filesystem::path& path, const RecordOptions& options = {});
@@ -30,7 +31,9 @@ class RecordWriter {
   /// Finishes the file if it can.
   ~RecordWriter();
 
-  /// Throws std::invalid_argument for a frame that does not fit the head or lies before the last one.
+  /// Throws std::invalid_argument for a frame that does not fit the head, lies before the last one, or is too large for
+  /// a chunk. What cannot be written throws FileError, as in the calls below, and leaves the file as it was before;
+  /// what was added stays and is written with the next call.
   void add(const RecordedFrame& frame);
   /// Writes what was added, so that others can read it.
   void flush();
@@ -40,8 +43,18 @@ class RecordWriter {
   const Recording& head() const { return head_; }
 
  private:
+  /// A whole chunk of the head.
+  struct Part {
+    uint32_t type;
+    record::Bytes chunk;
+  };
+  RecordWriter(const std::filesystem::path& path, const Recording& head, const RecordOptions& options,
+               const std::vector<Part>& parts);
   RecordWriter(record::FileBytes file, Recording head, record::Index index, uint64_t at, const RecordOptions& options);
-  void write(uint32_t type, const record::Bytes& content);
+  static std::vector<Part> partsOf(const Recording& head, bool compress);
+  void check(const RecordedFrame& frame) const;
+  void append(const record::Bytes& bytes);
+  void write(uint32_t type, const record::Bytes& chunk);
 
   record::FileBytes file_;
   RecordOptions options_;

@@ -8,6 +8,7 @@
 
 #include "api/debug_shapes.h"
 #include "world/check.h"
+#include "world/limits.h"
 
 namespace avbd {
 namespace {
@@ -35,6 +36,13 @@ DebugColor colorOf(BodyType type) {
 DebugColor colorOf(uint32_t number) {
   const uint32_t mixed = (number + 1) * 2654435761u;  // Knuth's multiplicative hash
   return 0xff404040u | (mixed >> 8 & 0x00bfbfbfu);
+}
+
+void draw(const Geometry& geometry, const Pose& pose, DebugColor color, DebugSink& sink,
+          const DebugDrawOptions& options) {
+  const DebugPen pen{sink, options, color, {pose.rotation, toFloat(pose.position - options.origin)}};
+  if (options.wire) drawWire(pen, geometry);
+  if (options.solid) drawSolid(pen, geometry);
 }
 
 class Drawing {
@@ -80,7 +88,7 @@ class Drawing {
     if (trigger && !o_.triggers) return;
     const Geometry geometry = world_.geometry(shape);
     const Pose pose = body * world_.localPose(shape);
-    debugDraw(geometry, pose, trigger ? kTrigger : color, sink_, o_);
+    draw(geometry, pose, trigger ? kTrigger : color, sink_, o_);
     if (o_.bounds) drawBounds(geometry, pose);
   }
 
@@ -188,9 +196,10 @@ class Drawing {
 void debugDraw(const Geometry& geometry, const Pose& pose, DebugColor color, DebugSink& sink,
                const DebugDrawOptions& options) {
   check(options);
-  const DebugPen pen{sink, options, color, {pose.rotation, toFloat(pose.position - options.origin)}};
-  if (options.wire) drawWire(pen, geometry);
-  if (options.solid) drawSolid(pen, geometry);
+  const Path call("debugDraw");
+  // What a world of any unit may hold.
+  checkGeometry(call / "geometry", geometry, Range{kMinSize * kMinUnit, kMaxSize * kMaxUnit});
+  draw(geometry, checkedPose(call / "pose", pose, kMaxPosition * kMaxUnit), color, sink, options);
 }
 
 void debugDraw(const World& world, DebugSink& sink, const DebugDrawOptions& options) {

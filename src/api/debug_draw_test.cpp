@@ -217,5 +217,24 @@ TEST(DebugDraw, RefusesOptionsOutOfRange) {
   EXPECT_THROW(debugDraw(World(), lists, {.origin = {INFINITY, 0, 0}}), Error);
 }
 
+TEST(DebugDraw, RefusesGeometryAndPosesThatNoWorldHolds) {
+  DebugLists lists;
+  const DebugDrawOptions options{.wire = true, .solid = true};
+  for (const Geometry& geometry : {Geometry{Hull{}}, Geometry{Mesh{}}, Geometry{HeightField{}}, Geometry{Sphere{NAN}},
+                                   Geometry{Box{1, -1, 1}}, Geometry{Hull{tetrahedron(), {0, 1, 1}}}})
+    EXPECT_THROW(debugDraw(geometry, {}, 0, lists, options), Error) << geometry.index();
+  EXPECT_THROW(debugDraw(Sphere{}, {{NAN, 0, 0}, {}}, 0, lists, options), Error);
+  EXPECT_THROW(debugDraw(Sphere{}, {{}, {0, 0, 0, 0}}, 0, lists, options), Error);
+  EXPECT_THROW(debugDraw(Sphere{}, {{}, {NAN, 0, 0, 0}}, 0, lists, options), Error);
+  EXPECT_TRUE(lists.lines.empty() && lists.triangles.empty());
+  // Large units: as the world itself.
+  World world({.lengthUnit = 1e4f});
+  world.create(BodyDef{.type = BodyType::Static, .shape = Sphere{1e8f}});
+  debugDraw(world, lists, options);
+  const size_t drawnOnce = lists.lines.size();
+  debugDraw(Sphere{1e8f}, {}, 0, lists, options);
+  EXPECT_EQ(lists.lines.size(), 2 * drawnOnce);
+}
+
 }  // namespace
 }  // namespace avbd

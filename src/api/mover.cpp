@@ -1,6 +1,7 @@
-// The character mover: checks, what carries it, what it pushes (mover.h).
+// The character mover: checks, and one move: carried, walking, looking at the ground, pushing (mover.h).
 #include <avbd/mover.h>
 
+#include "api/mover_push.h"
 #include "api/mover_walk.h"
 #include "world/check.h"
 #include "world/limits.h"
@@ -24,27 +25,10 @@ void checkMover(const MoverDef& def) {
   // Written so that NaN is refused.
   if (!(std::abs(length(def.up) - 1) <= 1e-3f))
     (path / "up").refuse(toText(def.up), "must have a length within 0.001 of 1");
-  check(path / "maxSlope", def.maxSlope, notNegative(1e6));
+  check(path / "maxSlope", def.maxSlope, notNegative(100));
   check(path / "stepHeight", def.stepHeight, notNegative(kMaxSize * kMaxUnit));
   check(path / "skin", def.skin, positive(static_cast<double>(def.radius)));
   check(path / "mass", def.mass, notNegative(kMaxMass));
-}
-
-Vec3 pointVelocity(const World& world, BodyId body, Vec3d point) {
-  const Velocity v = world.velocity(body);
-  return v.linear + cross(v.angular, toFloat(point - world.worldCenterOfMass(body)));
-}
-
-/// Dynamic bodies that it runs against, as in a collision without rebound of two free bodies.
-void pushBodies(World& world, const Mover& mover, Vec3 velocity) {
-  const MoverDef& def = mover.definition();
-  for (const NearHit& hit : world.nearest(mover.geometry(), mover.pose(), 2 * def.skin, def.filter)) {
-    if (world.type(hit.body) != BodyType::Dynamic || hit.body == mover.ground().body) continue;
-    const float closing = -dot(velocity - pointVelocity(world, hit.body, hit.onShape), hit.normal);
-    if (!(closing > 0)) continue;
-    const float mass = world.mass(hit.body), both = def.mass * mass / (def.mass + mass);
-    world.addImpulseAt(hit.body, hit.normal * -(closing * both), hit.onShape);
-  }
 }
 
 }  // namespace
@@ -65,20 +49,38 @@ void Mover::setPosition(Vec3d position) {
   ground_ = {};
 }
 
-void Mover::move(World& world, Vec3 velocity, float dt) {
-  const Path path("Mover::move");
-  check(path / "velocity", velocity, symmetric(kMaxSpeed * static_cast<double>(world.definition().lengthUnit)));
-  if (!(dt > 0 && dt <= 1)) (path / "dt").refuse(toText(dt), "must be finite and > 0 and at most 1");
-  Walk walk(world, *this, pose().position);
-  if (ground_.shape && world.isAlive(ground_.body)) {
-    QueryFilter others = def_.filter;
-    others.ignore = ground_.body;
-    const Vec3 carried = toFloat((world.pose(ground_.body) * Pose{onGroundBody_, {}}).position - ground_.point);
-    if (ground_.onGround && !(carried == Vec3{})) walk.advance(carried, others);
+/// What the ground has done since the last move, at the point that the mover touched.
+struct Mover::Ride {
+  Vec3 motion;             ///< [m]
+  Vec3 velocity;           ///< [m/s] now
+  float acceleration = 0;  ///< [m/s^2] along gravity, mean of the steps since then
+  bool stepped = true;     ///< the world was stepped since then
+  QueryFilter others;      ///< what may be in the way while it is carried: the mover's filter without the ground
+};
+
+Mover::Ride Mover::ride(const World& world) const {
+  Ride ride;
+  if (!ground_.onGround || !world.isAlive(ground_.body)) return ride;
+  // Places of one point in both poses, so that a ground at rest carries nowhere, not even by rounding.
+  const Pose touch{onGroundBody_, {}};
+  const Pose now = world.pose(ground_.body) * touch;
+  ride.motion = toFloat(now.position - (groundPose_ * touch).position);
+  ride.velocity = pointVelocity(world, ground_.body, now.position);
+  const Vec3 gravity = world.definition().gravity;
+  const double elapsed = world.time() - groundTime_;
+  ride.stepped = elapsed > 0;
+  if (ride.stepped && dot(gravity, gravity) > 0) {
+    const Vec3 down = gravity * (1 / length(gravity));
+    ride.acceleration = static_cast<float>(dot(toDouble(ride.velocity - ground_.velocity), toDouble(down)) / elapsed);
   }
-  walk.recover();
-  const Vec3d start = walk.center();
-  const Vec3 motion = velocity * dt;
+  ride.others = def_.filter;
+  ride.others.accept = [this, &world](ShapeId shape) {
+    return world.body(shape) != ground_.body && (!def_.filter.accept || def_.filter.accept(shape));
+  };
+  return ride;
+}
+
+void Mover::walk(Walk& walk, Vec3 motion) const {
   const float rise = dot(motion, def_.up);
   Vec3 level = motion - def_.up * rise;
   const bool walks = ground_.onGround && rise <= 0;
@@ -89,19 +91,49 @@ void Mover::move(World& world, Vec3 velocity, float dt) {
   } else {
     walk.slide(level, true);
   }
-  if (!walks || !walk.settle(def_.stepHeight - rise)) {
-    // On the way down it lands where it can stand; elsewhere it slides.
-    if (rise > 0 || !walk.settle(-rise)) walk.slide(def_.up * rise, false);
+  if (walks && walk.settle(def_.stepHeight - rise)) return;
+  // On the way down it lands where it can stand; elsewhere it slides.
+  if (rise > 0 || !walk.settle(-rise)) walk.slide(def_.up * rise, false);
+}
+
+void Mover::move(World& world, Vec3 velocity, float dt) {
+  const Path path("Mover::move");
+  check(path / "velocity", velocity, symmetric(kMaxSpeed * static_cast<double>(world.definition().lengthUnit)));
+  if (!(dt > 0 && dt <= 1)) (path / "dt").refuse(toText(dt), "must be finite and > 0 and at most 1");
+  // Everything that can throw comes first; what it comes to is set last.
+  const Ride carried = ride(world);
+  Walk steps(world, *this, pose().position);
+  steps.advance(carried.motion, carried.others);
+  steps.recover();
+  const Vec3d start = steps.center();
+  walk(steps, velocity * dt);
+  const Vec3d end = steps.center();
+  const MoverGround ground = dot(velocity, def_.up) > 0 ? MoverGround{} : steps.findGround(3 * def_.skin);
+  const Pose groundPose = ground.shape ? world.pose(ground.body) : Pose{};
+  MoverPushes pushes(world, def_.mass);
+  float weight = 0;
+  if (def_.mass > 0) {
+    // The ground that it walks on is not pushed, but one that it lands on is.
+    const BodyId under = ground_.onGround && ground.onGround ? ground.body : BodyId{};
+    for (const NearHit& hit : world.nearest(geometry(), {end, rotation_}, 2 * def_.skin, def_.filter))
+      if (hit.body != under && world.type(hit.body) == BodyType::Dynamic)
+        pushes.collide(hit, velocity + carried.velocity);
+    if (ground.onGround && world.type(ground.body) == BodyType::Dynamic) {
+      const bool stays = ground_.onGround && ground.body == ground_.body;
+      // A force lasts a step: without one since the last move it is still to act.
+      weight = stays && !carried.stepped ? weight_
+               : stays                   ? pushes.weigh(ground, weight_, carried.acceleration)
+                                         : pushes.weigh(ground, 0, 0);
+    }
   }
-  const Vec3d end = walk.center();
+  pushes.apply(world);
   velocity_ = toFloat(end - start) * (1 / dt);
   position_ = end - def_.up * (0.5f * def_.height);
-  ground_ = rise > 0 ? MoverGround{} : walk.findGround(3 * def_.skin);
-  if (ground_.shape) onGroundBody_ = (inverse(world.pose(ground_.body)) * Pose{ground_.point, {}}).position;
-  if (!(def_.mass > 0)) return;
-  pushBodies(world, *this, velocity);
-  if (ground_.shape && world.type(ground_.body) == BodyType::Dynamic)
-    world.addImpulseAt(ground_.body, world.definition().gravity * (def_.mass * dt), ground_.point);
+  ground_ = ground;
+  groundPose_ = groundPose;
+  onGroundBody_ = (inverse(groundPose) * Pose{ground.point, {}}).position;
+  groundTime_ = world.time();
+  weight_ = weight;
 }
 
 }  // namespace avbd

@@ -1,42 +1,9 @@
 // The character mover on stairs, slopes, platforms, surfaces and in corners.
-#include <avbd/mover.h>
-#include <gtest/gtest.h>
-
+#include "api/mover_cases.h"
 #include "query/query_world.h"
 
 namespace avbd {
 namespace {
-
-constexpr float kStep = 1.0f / 60;
-
-/// A walker who falls when nothing carries it.
-struct Walker {
-  World& world;
-  Mover mover;
-
-  Walker(World& w, const MoverDef& def) : world(w), mover(def) {}
-  void walk(Vec3 wanted, int steps) {
-    for (int i = 0; i < steps; ++i) {
-      // In the air it keeps what the last move left it, and falls faster.
-      Vec3 velocity = wanted;
-      if (!mover.ground()) velocity.y = mover.velocity().y - 9.81f * kStep;
-      if (!mover.ground() && wanted == Vec3{}) velocity = mover.velocity() - Vec3{0, 9.81f * kStep, 0};
-      mover.move(world, velocity, kStep);
-      const std::vector<NearHit> near = world.nearest(mover.geometry(), mover.pose(), 0, mover.definition().filter);
-      for (const NearHit& hit : near) ASSERT_GT(hit.distance, -1e-3f) << "overlap at step " << i;
-    }
-  }
-  Vec3d at() const { return mover.position(); }
-};
-
-BodyId fixedBox(World& world, Vec3d position, Box box, Quat rotation = {}) {
-  return world.create(BodyDef{.type = BodyType::Static, .position = position, .rotation = rotation, .shape = box});
-}
-
-Quat aboutZ(double degrees) {
-  const double half = degrees * 0.5 * 3.14159265358979 / 180;
-  return {float(std::cos(half)), 0, 0, float(std::sin(half))};
-}
 
 /// A floor and stairs that rise along x from x = 1, ten of them, 0.4 deep.
 void makeStairs(World& world, float height) {
@@ -78,6 +45,83 @@ TEST(Mover, climbsStepsNoHigherThanItsStepHeight) {
     EXPECT_LT(unable.at().x, 1) << speed;
     EXPECT_NEAR(unable.at().y, 0.02, 5e-3) << speed;
   }
+}
+
+TEST(Mover, itsStepHeightIsTheLimit) {
+  for (const float speed : {0.5f, 2.0f, 6.0f}) {
+    for (const float height : {0.34f, 0.36f}) {
+      World world;
+      world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
+      fixedBox(world, {6, 0.5 * height, 0}, {5, 0.5f * height, 5});
+      Walker walker(world, {.position = {0, 0.02, 0}, .stepHeight = 0.35f});
+      walker.walk({speed, 0, 0}, static_cast<int>(3 / speed / kStep));
+      if (height < 0.35f) {
+        EXPECT_GT(walker.at().x, 2.5) << speed;
+        EXPECT_NEAR(walker.at().y, height + 0.02, 1e-3) << speed;
+      } else {
+        EXPECT_LT(walker.at().x, 0.7) << speed;
+        EXPECT_NEAR(walker.at().y, 0.02, 1e-3) << speed;
+      }
+    }
+  }
+}
+
+TEST(Mover, itsMaxSlopeIsTheLimit) {
+  // The default: atan 1.2 = 50.194 degrees.
+  for (const double degrees : {50.1, 50.3}) {
+    World world;
+    fixedBox(world, {0, -1, 0}, {20, 1, 20}, {});
+    const Quat turn = aboutZ(degrees);
+    fixedBox(world, toDouble(rotate(turn, Vec3{0, -1, 0})), {20, 1, 20}, turn);
+    Walker walker(world, {.position = {-2, 0.02, 0}});
+    walker.walk({2, 0, 0}, 180);
+    if (degrees < 50.194) {
+      EXPECT_TRUE(walker.mover.ground());
+      EXPECT_GT(walker.at().y, 3);
+    } else {
+      EXPECT_LT(walker.at().y, 0.3);
+    }
+  }
+}
+
+TEST(Mover, aVerticalWallIsNoGroundWhateverTheSlope) {
+  World world;
+  for (const double degrees : {0.0, 17.0, 71.0}) {
+    const double half = degrees * 0.5 * 3.14159265358979 / 180;
+    const Quat turn{float(std::cos(half)), 0, float(std::sin(half)), 0};
+    const Vec3d out = rotate(turn, Vec3d{1, 0, 0});
+    const BodyId wall = fixedBox(world, out * 1.5, {0.5f, 50, 5}, turn);
+    Walker walker(world, {.position = out * 0.6, .maxSlope = 100});
+    walker.walk(toFloat(out) * 2, 1);
+    for (int i = 0; i < 60; ++i) {
+      walker.walk(toFloat(out) * 2, 1);
+      ASSERT_FALSE(walker.mover.ground()) << degrees;
+      ASSERT_TRUE(std::isfinite(walker.at().x + walker.at().y + walker.at().z));
+    }
+    EXPECT_LT(walker.at().y, -4) << degrees;
+    world.destroy(wall);
+  }
+  EXPECT_THROW(Mover({.maxSlope = 101}), Error);
+}
+
+TEST(Mover, meetsNothingThatItsFilterLeavesOut) {
+  World world;
+  world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
+  const BodyId wall = fixedBox(world, {2, 1, 0}, {0.1f, 1, 5});
+  const auto reached = [&](const QueryFilter& filter) {
+    Walker walker(world, {.position = {0, 0.02, 0}, .filter = filter});
+    walker.walk({3, 0, 0}, 60);
+    EXPECT_TRUE(walker.mover.ground());
+    return walker.at().x;
+  };
+  EXPECT_LT(reached({}), 1.6);
+  EXPECT_NEAR(reached({.ignore = wall}), 3, 1e-3);
+  EXPECT_NEAR(reached({.accept = [&](ShapeId s) { return world.body(s) != wall; }}), 3, 1e-3);
+  world.destroy(wall);
+  Mover mover({.filter = {.ignore = wall}});
+  const Vec3d before = mover.position();
+  EXPECT_THROW(mover.move(world, {1, 0, 0}, kStep), Error) << "a dead body";
+  EXPECT_EQ(mover.position(), before);
 }
 
 TEST(Mover, walksDownStairsWithoutFalling) {

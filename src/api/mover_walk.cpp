@@ -3,12 +3,21 @@
 
 #include <algorithm>
 
+#include "api/mover_push.h"
+
 namespace avbd {
 namespace {
 
 constexpr int kSlides = 8;      // pieces of one motion
 constexpr int kClips = 32;      // rounds over the planes
 constexpr int kRecoveries = 8;  // rounds of leaving overlaps
+
+// Least part of a motion that counts as against what it meets: a gap is kept along the way, not across it.
+constexpr float kSlant = 0.1f;
+// Of a unit motion against a normal: less is along the surface, but for rounding.
+constexpr float kDeeper = 1e-3f;
+// Of skin: what is no farther counts as an overlap where a cast starts.
+constexpr float kTouch = 0.01f;
 
 Vec3 unitOf(Vec3 v) { return v * (1 / length(v)); }
 Vec3 across(Vec3 v, Vec3 up) { return v - up * dot(v, up); }
@@ -44,7 +53,45 @@ Mover::Walk::Walk(const World& world, const Mover& mover, Vec3d center)
 
 CastHit Mover::Walk::cast(Vec3 motion, const QueryFilter& filter) const {
   if (!(dot(motion, motion) > 0)) return {};
-  return world_.castClosest(capsule_, {center_, rotation_}, motion, filter);
+  const CastHit hit = world_.castClosest(capsule_, {center_, rotation_}, motion, filter);
+  if (!hit || hit.distance > 0) return hit;
+  const std::vector<NearHit> around = overlaps(filter);
+  const Vec3 direction = unitOf(motion);
+  for (const NearHit& near : around)
+    if (dot(near.normal, direction) < -kDeeper)
+      return {near.shape, near.body, near.element, 0, near.onShape, near.normal};
+  return castOutOf(around, motion, filter);
+}
+
+std::vector<NearHit> Mover::Walk::overlaps(const QueryFilter& filter) const {
+  return world_.nearest(capsule_, {center_, rotation_}, kTouch * def_.skin, filter);
+}
+
+CastHit Mover::Walk::castOutOf(const std::vector<NearHit>& overlaps, Vec3 motion, const QueryFilter& filter) const {
+  const auto isAmong = [&](ShapeId shape) {
+    return std::any_of(overlaps.begin(), overlaps.end(), [&](const NearHit& near) { return near.shape == shape; });
+  };
+  const auto accepts = [&](ShapeId shape) { return !filter.accept || filter.accept(shape); };
+  QueryFilter seen = filter;
+  seen.accept = [&](ShapeId shape) { return !isAmong(shape) && accepts(shape); };
+  CastHit first = world_.castClosest(capsule_, {center_, rotation_}, motion, seen);
+  const float way = length(motion);
+  // A convex shape is not met again on the way out. Of a surface only a part is overlapped: the rest is met by a
+  // capsule that is thinner by the depth, if that is not all of it.
+  for (const NearHit& near : overlaps) {
+    const float thinner = kTouch * def_.skin - std::min(near.distance, 0.0f);
+    if (near.element == kNoElement || thinner > 0.9f * def_.radius) continue;
+    seen.accept = [&](ShapeId shape) { return shape == near.shape; };
+    const Capsule thin{capsule_.radius - thinner, capsule_.halfHeight};
+    // It meets things later, the more so the more slantingly; slants are counted as in advance().
+    CastHit hit = world_.castClosest(thin, {center_, rotation_}, motion * (1 + thinner / (kSlant * way)), seen);
+    if (!hit) continue;
+    hit.distance -= thinner / std::max(-dot(hit.normal, motion) / way, kSlant);
+    if (hit.distance > way) continue;
+    hit.distance = std::max(hit.distance, 0.0f);
+    if (!first || hit.distance < first.distance) first = hit;
+  }
+  return first;
 }
 
 CastHit Mover::Walk::advance(Vec3 motion, const QueryFilter& filter) {
@@ -55,7 +102,7 @@ CastHit Mover::Walk::advance(Vec3 motion, const QueryFilter& filter) {
   const CastHit hit = cast(direction * (wanted + 2 * def_.skin), filter);
   float way = wanted;
   if (hit) {
-    const float against = std::max(-dot(hit.normal, direction), 0.1f);
+    const float against = std::max(-dot(hit.normal, direction), kSlant);
     way = std::clamp(hit.distance - def_.skin / against, 0.0f, wanted);
   }
   center_ = center_ + toDouble(direction) * static_cast<double>(way);
@@ -73,7 +120,9 @@ MoverPlane Mover::Walk::planeOf(Vec3 normal, float gap, bool level) const {
 void Mover::Walk::gatherPlanes(std::vector<MoverPlane>& planes, bool level) const {
   for (const NearHit& hit : world_.nearest(capsule_, {center_, rotation_}, 2 * def_.skin, def_.filter)) {
     // What is a little too near is left as it is: pushing it away would make it tremble.
-    const float gap = hit.distance > 0.25f * def_.skin ? std::max(hit.distance, def_.skin) : hit.distance;
+    // What it could not leave must only not be entered deeper.
+    const bool kept = hit.distance > 0.25f * def_.skin || hit.distance <= 0;
+    const float gap = kept ? std::max(hit.distance, def_.skin) : hit.distance;
     planes.push_back(planeOf(hit.normal, gap, level && hit.distance > 0));
   }
 }
@@ -89,7 +138,6 @@ void Mover::Walk::slide(Vec3 motion, bool level) {
     const Vec3d before = center_;
     const CastHit hit = advance(wanted, def_.filter);
     if (!hit) return;
-    if (!(hit.distance > 0)) return;
     met.push_back(planeOf(hit.normal, def_.skin, level));
     // Blocked at once by something that the planes do not tell of: going on would not help.
     if (center_ == before && i > 3) return;
@@ -105,7 +153,10 @@ void Mover::Walk::recover() {
       overlaps = overlaps || hit.distance <= 0.25f * def_.skin;
     }
     if (!overlaps) return;
-    center_ = center_ + clipMotion({}, center_, planes);
+    const Vec3d before = center_;
+    // Cast like everything: what moved into it may have come a longer way than a wall behind it is thick.
+    advance(clipMotion({}, center_, planes), def_.filter);
+    if (length(center_ - before) <= 1e-4 * static_cast<double>(def_.skin)) return;
   }
 }
 
@@ -156,22 +207,26 @@ void Mover::Walk::stride(Vec3 motion) {
   over.slide(forward * (std::max(pace, 1.5f * def_.skin) / pace), true);
   if (progress(over.center_) <= plain + 1e-3f * wanted) return;
   const CastHit top = over.cast(def_.up * -(lifted + 2 * def_.skin), def_.filter);
-  if (!top || dot(top.position - start, toDouble(def_.up)) + foot_ > def_.stepHeight + def_.skin) return;
+  // The ground is a skin below the foot.
+  const double height = dot(top.position - start, toDouble(def_.up)) + static_cast<double>(foot_ + def_.skin);
+  if (!top || height > static_cast<double>(def_.stepHeight + 0.1f * def_.skin)) return;
   if (!over.settle(lifted)) return;
   const bool climbed = dot(over.center_ - start, toDouble(def_.up)) > 0.1 * static_cast<double>(def_.skin);
   if (climbed || progress(over.center_) <= 1.01f * wanted) center_ = over.center_;
 }
 
 MoverGround Mover::Walk::findGround(float depth) const {
-  const CastHit hit = cast(def_.up * -depth, def_.filter);
-  if (!hit) return {};
+  const Vec3 down = def_.up * -depth;
+  CastHit hit = cast(down, def_.filter);
+  // Something that overlaps and lies lower holds it up no more than a wall does; what is under it may still do so.
+  if (hit && !(hit.distance > 0)) hit = castOutOf(overlaps(def_.filter), down, def_.filter);
+  if (!hit || !(hit.distance > 0)) return {};
   MoverGround ground;
   ground.onGround = isGround(hit, ground.normal);
   ground.shape = hit.shape;
   ground.body = hit.body;
   ground.point = hit.position;
-  const Velocity v = world_.velocity(hit.body);
-  ground.velocity = v.linear + cross(v.angular, toFloat(hit.position - world_.worldCenterOfMass(hit.body)));
+  ground.velocity = pointVelocity(world_, hit.body, hit.position);
   return ground;
 }
 

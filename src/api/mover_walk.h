@@ -26,13 +26,16 @@ class Mover::Walk {
   void stride(Vec3 motion);
   /// Down by no more than this, where there is ground to stand on; otherwise stays and returns false.
   bool settle(float depth);
-  /// Out of what it overlaps.
+  /// Out of what it overlaps, as far as other things let it.
   void recover();
-  /// What is under the capsule within this distance.
+  /// What is under the capsule within this distance, apart from what overlaps it.
   MoverGround findGround(float depth) const;
 
  private:
+  /// What overlaps at the start counts only where the motion goes deeper into it.
   CastHit cast(Vec3 motion, const QueryFilter& filter) const;
+  CastHit castOutOf(const std::vector<NearHit>& overlaps, Vec3 motion, const QueryFilter& filter) const;
+  std::vector<NearHit> overlaps(const QueryFilter& filter) const;
   bool isGround(const CastHit& hit, Vec3& normal) const;
   void gatherPlanes(std::vector<MoverPlane>& planes, bool level) const;
   MoverPlane planeOf(Vec3 normal, float gap, bool level) const;

@@ -50,6 +50,7 @@ Pose checkedPose(const Path& path, const Pose& value, double maxPosition);
 // Definitions. `unit` is WorldDef::lengthUnit.
 void checkWorld(const WorldDef& def);
 void checkGeometry(const Path& path, const Geometry& geometry, float unit);
+void checkGeometry(const Path& path, const Geometry& geometry, Range size);  ///< size: of each of its lengths
 /// Unbounded and hollow shapes belong to static and kinematic bodies.
 void checkMayMove(const Path& path, const Geometry& geometry, BodyType type);
 void checkMaterial(const Path& path, const Material& material);

@@ -73,8 +73,12 @@ void checkCombine(const Path& path, Combine rule) {
 }  // namespace
 
 void checkGeometry(const Path& path, const Geometry& geometry, float unit) {
+  checkGeometry(path, geometry, Range{kMinSize * unit, kMaxSize * unit});
+}
+
+void checkGeometry(const Path& path, const Geometry& geometry, Range size) {
   if (geometry.valueless_by_exception()) path.refuse("nothing", "must be a shape");
-  std::visit(GeometryCheck{path, {kMinSize * unit, kMaxSize * unit}}, geometry);
+  std::visit(GeometryCheck{path, size}, geometry);
 }
 
 void checkMayMove(const Path& path, const Geometry& geometry, BodyType type) {

@@ -44,6 +44,7 @@ class Instances {
     items.sort((a, b) => (recording.tracks[a.body] < 0) - (recording.tracks[b.body] < 0));
     this.bodies = Uint32Array.from(items, (item) => item.body);
     this.movers = items.filter((item) => recording.tracks[item.body] >= 0).length;
+    this.colors = items.map(({color}) => (color === undefined ? undefined : new THREE.Color(color)));  // the file's own
     this.scales = Float32Array.from(items.flatMap((item) => item.scale));
     this.poses = Float32Array.from(items.flatMap((item) => item.pose));
     this.plain = Uint8Array.from(items, ({pose}) => (pose.slice(0, 6).every((value) => value === 0) ? 1 : 0));
@@ -119,12 +120,15 @@ export class Bodies {
     this.recording = recording;
     this.group = new THREE.Group();
     this.colors = [];
+    this.own = new Map();  // of bodies: the first colour that the file gives one of its shapes
     const items = new Map(), parts = new Parts(recording.surfaces);
     for (const shape of recording.shapes) {
+      if (shape.color !== undefined && !this.own.has(shape.body)) this.own.set(shape.body, new THREE.Color(shape.color));
       for (const part of parts.of(shape)) {
         const name = shape.trigger ? `${part.mesh} trigger` : part.mesh;
         if (!items.has(name)) items.set(name, []);
-        items.get(name).push({...part, trigger: shape.trigger, body: shape.body, pose: partPose(shape, part)});
+        items.get(name).push({...part, trigger: shape.trigger, body: shape.body, color: shape.color,
+                              pose: partPose(shape, part)});
       }
     }
     this.sets = [...items].map(([name, list]) => new Instances(name, list, recording));
@@ -156,11 +160,15 @@ export class Bodies {
     this.mark(selected, hovered);
   }
 
+  swatch(body) {
+    return this.own.get(body) ?? this.colors[body];
+  }
+
   mark(selected, hovered) {
     const accent = new THREE.Color(0xff7a1a), white = new THREE.Color(0xffffff), color = new THREE.Color();
     for (const set of this.sets) {
       set.bodies.forEach((body, i) => {
-        color.copy(this.colors[body]);
+        color.copy(set.colors[i] ?? this.colors[body]);
         if (body === selected) color.lerp(accent, 0.85);
         else if (body === hovered) color.lerp(white, 0.3);
         color.toArray(set.mesh.instanceColor.array, 3 * i);

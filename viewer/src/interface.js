@@ -152,12 +152,19 @@ export class Interface {
   makePanel() {
     const section = (title, ...content) => make('section', {}, make('h2', {text: title}), ...content);
     this.selection = make('div', {class: 'selection'});
+    this.report = section('Report', make('table', {}, make('tbody')));
+    this.showReport();
+    this.panel = make('aside', {class: 'panel', 'aria-label': 'Figures'}, section('Body', this.selection),
+                      section('Figures', ...this.makePlots()), this.report, this.makeQuality());
+    return this.panel;
+  }
+
+  /// Of a run that goes on it comes when that has ended.
+  showReport() {
     const rows = this.recording.report.map(
         ([label, value]) => make('tr', {}, make('th', {scope: 'row', text: label}), make('td', {text: value})));
-    const report = rows.length > 0 && section('Report', make('table', {}, make('tbody', {}, ...rows)));
-    this.panel = make('aside', {class: 'panel', 'aria-label': 'Figures'}, section('Body', this.selection),
-                      section('Figures', ...this.makePlots()), report, this.makeQuality());
-    return this.panel;
+    this.report.hidden = rows.length === 0;
+    this.report.querySelector('tbody').replaceChildren(...rows);
   }
 
   makePlots() {

@@ -3,7 +3,7 @@ import {Recording} from './recording.js';
 
 const kAhead = 96;          // frames asked for beyond the one that is shown
 const kKept = 256e6;        // bytes of frames kept; the ones not shown for longest go
-const kHead = 1, kFigures = 2, kFrame = 3;
+const kHead = 1, kFigures = 2, kFrame = 3, kReport = 4;
 const kFirstLook = [0, 0.25, 0.5, 0.75, 1];  // parts of the recording that tell how large the scene is
 
 function joined(Type, a, first, b) {
@@ -57,7 +57,22 @@ export class LiveRecording extends Recording {
       if (this.frames.size <= most) break;
       if (old !== 0) this.frames.delete(old);
     }
-    this.viewer?.player.arrived();
+    this.viewer?.arrived(frame);
+  }
+
+  takeReport(report) {
+    this.report = report;
+    this.viewer?.interface.showReport();
+  }
+
+  held(frame) {
+    return this.frames.has(frame);
+  }
+
+  request(frames) {
+    for (const frame of frames) {
+      if (!this.frames.has(frame)) this.ask(frame, frame + 1);
+    }
   }
 
   /// Whether a frame is here; if not, it and the next ones are asked for.
@@ -125,6 +140,8 @@ export function openLive() {
           wanted = [...new Set(kFirstLook.map((part) => Math.round(part * last)))];
           for (const frame of wanted) socket.send(`get ${frame} ${frame + 1}`);
         }
+      } else if (kind === kReport) {
+        recording.takeReport(JSON.parse(new TextDecoder().decode(data.slice(4))));
       } else if (kind === kFrame) {
         recording.takeFrame(data);
         if (!recording.viewer && wanted.length > 0 && wanted.every((frame) => recording.frames.has(frame))) {

@@ -15,6 +15,7 @@ import {Stage} from './stage.js';
 import * as THREE from 'three';
 import style from './style.css';
 
+const kRedrawAfter = 100;  // ms
 const kTypes = ['static', 'kinematic', 'dynamic'];
 
 class Viewer {
@@ -134,6 +135,17 @@ class Viewer {
     this.player.touch(true);
   }
 
+  /// A frame that was asked for is here.
+  arrived(frame) {
+    this.player.arrived();
+    if (!this.marks.takesIntoPath(frame) || this.pathTimer) return;
+    this.pathTimer = setTimeout(() => {  // many come at once
+      this.pathTimer = undefined;
+      this.marks.drawPath();
+      this.player.touch();
+    }, kRedrawAfter);
+  }
+
   hover(body) {
     if (body === this.hovered) return;
     this.hovered = body;
@@ -146,7 +158,7 @@ class Viewer {
     const {selected, recording} = this;
     if (selected < 0) return this.interface.showSelection(undefined);
     this.interface.showSelection({name: recording.nameOf(selected), type: kTypes[recording.types[selected]] ?? '',
-                                  color: this.bodies.colors[selected].getStyle(), follow: this.on.follow});
+                                  color: this.bodies.swatch(selected).getStyle(), follow: this.on.follow});
     return this.updateSelection();
   }
 
@@ -175,6 +187,8 @@ function publish(viewer) {
     recording: {bodies: recording.bodyCount, get frames() { return recording.frameCount; }, names: recording.names},
     get finished() { return recording.finished !== false; },
     has: (frame) => recording.has(frame),
+    get framesHeld() { return recording.frames?.size ?? recording.frameCount; },
+    get pathLines() { return viewer.marks.path.object.geometry.instanceCount; },
     meshes: () => viewer.bodies.sets.map(({mesh, bodies}) => ({
       name: mesh.name, count: bodies.length, triangles: (mesh.geometry.index ?? mesh.geometry.attributes.position).count / 3,
       transparent: mesh.material.transparent})),
@@ -196,7 +210,7 @@ function publish(viewer) {
       player.touch(true);
     },
     poseOf: (body) => Array.from(viewer.motion.now.subarray(7 * body, 7 * body + 7)),
-    colorOf: (body) => viewer.bodies.colors[body].getHex(),
+    colorOf: (body) => viewer.bodies.swatch(body).getHex(),
     /// Where a body's origin is on the page, and which body one sees there.
     project: (body) => {
       const {x, y, z} = stage.project(...viewer.motion.now.subarray(7 * body, 7 * body + 3));

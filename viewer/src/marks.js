@@ -5,13 +5,14 @@ import {kWorld} from './recording.js';
 import {Dots, Segments} from './segments.js';
 
 const kPathPoints = 3000;
+const kPathAsked = 200;  // frames of a live recording that are asked for, to draw a path through
 
 /// Metres of line for a newton: strong forces of the recording get a tenth of the scene's size.
 function forceScale(recording, radius) {
   const sizes = [];
   const stride = Math.max(1, Math.floor(recording.frameCount / 24));
   for (let frame = 0; frame < recording.frameCount; frame += stride) {
-    if (!recording.has(frame)) continue;
+    if (!recording.held(frame)) continue;
     const {forces} = recording.contacts(frame);
     for (let i = 0; i < forces.length; i += 3) sizes.push(Math.hypot(forces[i], forces[i + 1], forces[i + 2]));
   }
@@ -94,11 +95,31 @@ export class Marks {
   /// The way of a body's origin through the whole recording; -1 clears it.
   tracePath(body) {
     const {recording} = this;
+    this.traced = body;
+    this.stride = Math.max(1, Math.ceil(recording.frameCount / kPathPoints));
+    this.awaited = new Set();
+    if (body >= 0 && recording.tracks[body] >= 0) {
+      const apart = this.stride * Math.ceil(recording.frameCount / this.stride / kPathAsked);
+      for (let frame = 0; frame < recording.frameCount; frame += apart) {
+        if (!recording.held(frame)) this.awaited.add(frame);
+      }
+      recording.request(this.awaited);
+    }
+    this.drawPath();
+  }
+
+  /// True for a frame that the path waited for: it is to be drawn again.
+  takesIntoPath(frame) {
+    return this.awaited?.delete(frame) === true;
+  }
+
+  /// Through all frames that are here.
+  drawPath() {
+    const {recording, traced: body, stride} = this;
     if (body < 0 || recording.tracks[body] < 0) return this.path.set([], 0);
-    const stride = Math.max(1, Math.ceil(recording.frameCount / kPathPoints));
     const poses = new Float32Array(7 * recording.bodyCount), points = [];
     for (let frame = 0; frame < recording.frameCount; frame += stride) {
-      if (!recording.has(frame)) continue;
+      if (!recording.held(frame)) continue;
       recording.poses(frame, poses, false);
       points.push(poses.slice(7 * body, 7 * body + 3));
     }

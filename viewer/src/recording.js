@@ -64,6 +64,7 @@ export class Recording {
     const poses = numbers(Float32Array, head.shapePoses);
     const surfaces = numbers(Int32Array, head.shapeSurfaces);
     const triggers = numbers(Uint8Array, head.shapeTriggers);
+    const colors = head.shapeColors ? numbers(Uint8Array, head.shapeColors) : [];
     const clean = (value, otherwise) => (Number.isFinite(value) ? value : otherwise);
     return Array.from(bodies, (body, i) => {
       const pose = Array.from(poses.subarray(7 * i, 7 * i + 7), (value, k) => clean(value, k === 3 ? 1 : 0));
@@ -72,7 +73,9 @@ export class Recording {
       // Hulls and meshes have a scale, which may be negative.
       const size = Array.from(sizes.subarray(4 * i, 4 * i + 4),
                               (value) => (surface >= 0 ? clean(value, 1) : Math.max(0, clean(value, 0))));
-      return {body, kind: kKinds[kinds[i]], size, surface, trigger: triggers[i] === 1, position: [x, y, z],
+      const [red, green, blue, given] = colors.slice(4 * i, 4 * i + 4);
+      const color = given ? (red << 16) | (green << 8) | blue : undefined;
+      return {body, color, kind: kKinds[kinds[i]], size, surface, trigger: triggers[i] === 1, position: [x, y, z],
               rotation: [qx, qy, qz, qw]};
     });
   }
@@ -118,6 +121,14 @@ export class Recording {
   has() {
     return true;
   }
+
+  /// The same, without asking for anything.
+  held() {
+    return true;
+  }
+
+  /// Asks for single frames.
+  request() {}
 
   /// Poses of a frame, 7 numbers a body: x y z qx qy qz qw about the origin. `stills` writes those that never move.
   poses(frame, out, stills) {
