@@ -11,11 +11,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#ifdef AVBD_HAS_CCD
-#include <ccd/ccd.h>
-#endif
-
 #include "collide/collide_convex_oracle.h"
+
+#ifdef AVBD_CCD
+#include "collide/collide_ccd.h"
+#endif
 
 namespace avbd {
 namespace {
@@ -41,38 +41,6 @@ Asked randomPair(Random& random, ShapeType a, ShapeType b) {
   return s;
 }
 
-#ifdef AVBD_HAS_CCD
-struct Sided {
-  const ShapeGeom* shape;
-  const NearPose* pose;
-};
-
-void ccdSupport(const void* what, const ccd_vec3_t* direction, ccd_vec3_t* out) {
-  const Sided& s = *static_cast<const Sided*>(what);
-  const Vec3d d{direction->v[0], direction->v[1], direction->v[2]};
-  const Vec3 local = support(*s.shape, toFloat(oracle::unitRotate(Asked::back(s.pose->q), d)));
-  const Vec3d p = oracle::unitRotate(s.pose->q, toDouble(local)) + s.pose->p + d * (s.shape->radius / length(d));
-  out->v[0] = p.x, out->v[1] = p.y, out->v[2] = p.z;
-}
-
-/// The direction in which libccd parts them; zero where it sees no overlap.
-Vec3d ccdDirection(const Asked& s) {
-  const Sided a{&s.a, &s.poseA}, b{&s.b, &s.poseB};
-  ccd_t ccd;
-  CCD_INIT(&ccd);
-  ccd.support1 = ccd.support2 = ccdSupport;
-  ccd.max_iterations = 500;
-  ccd.epa_tolerance = 1e-6;
-  ccd_real_t depth;
-  ccd_vec3_t direction, position;
-  if (ccdGJKPenetration(&a, &b, &ccd, &depth, &direction, &position) != 0) return {};
-  const Vec3d d{direction.v[0], direction.v[1], direction.v[2]};
-  return length(d) > 1e-9 ? oracle::unitOf(d) : Vec3d{};
-}
-#else
-Vec3d ccdDirection(const Asked&) { return {}; }
-#endif
-
 void measure(Random& random, std::mt19937& climbing, ShapeType a, ShapeType b, Errors& e) {
   const Asked s = randomPair(random, a, b);
   const double size = oracle::size(s.a) + oracle::size(s.b);
@@ -84,12 +52,14 @@ void measure(Random& random, std::mt19937& climbing, ShapeType a, ShapeType b, E
   worst = std::max(worst, missed);
   if (n.distance >= 0) return;
   ++e.overlapping;
-  const Vec3d d = ccdDirection(s);
+#ifdef AVBD_CCD
+  const Vec3d d = oracle::ccdDirection(s);
   if (!(length(d) > 0)) return;
   ++e.ccdAnswers;
   const double theirs = std::max(s.gap(d), s.gap(d * -1.0)) - s.gap(normal);
   e.ccdBetter = std::max(e.ccdBetter, theirs / size);
   e.ccdWorse += theirs < -1e-4 * size;
+#endif
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ void Session::step() {
     world_.getPoses(bodies_, after);
     world_.getVelocities(bodies_, speedAfter);
     require(before == after && speedBefore == speedAfter, "a failed step moved something");
+    world_.clearForces();
   }
 }
 

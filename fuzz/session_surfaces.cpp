@@ -40,7 +40,7 @@ const std::shared_ptr<const MeshData>& thinMesh() {
   static const auto mesh = [] {
     const std::vector<Vec3> vertices{{-2, 0, -2}, {2, 0, -2}, {2, 0, 2}, {-2, 0, 2}, {0, 0, 2.00001f}, {0, 1, 0}};
     const std::vector<std::array<uint32_t, 3>> triangles{{0, 2, 1}, {0, 3, 2}, {2, 3, 4}, {0, 1, 5}};
-    const std::vector<uint16_t> materials{0, 1, 0, 7};
+    const std::vector<uint16_t> materials{0, 1, 0, 1};
     return makeMesh({.vertices = vertices, .triangles = triangles, .materials = materials, .doubleSided = true});
   }();
   return mesh;

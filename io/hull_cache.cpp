@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic{'A', 'V', 'B', 'D', 'H', 'U', 'L', 'L'};
 /// Of file and method: a changed decomposition must not find what the old one left.
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr size_t kMaxBytes = 64u << 20;
 
 /// 64 bits over bytes; not against adversaries.

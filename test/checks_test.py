@@ -44,7 +44,7 @@ class Checks(unittest.TestCase):
         self.assertEqual(status, 0, output)
 
     def test_good_tree(self):
-        for name in ("sizes", "layers", "stages", "words", "readme"):
+        for name in ("sizes", "layers", "types", "stages", "words", "readme"):
             with self.subTest(name):
                 self.accepts(name, {})
 
@@ -71,6 +71,16 @@ class Checks(unittest.TestCase):
         self.objects("layers", {"src/base/a.h": '#include "b.h"\n', "src/base/b.h": '#include "base/a.h"\n'}, "cycle")
         self.accepts("layers", {"io/a_test.cpp": '#include "base/text.h"\n'})
         self.accepts("layers", {"src/step/a.cpp": '#include <avbd/profile.h>\n#include <vector>\n'})
+
+    def test_types(self):
+        one = "namespace avbd {\nstruct A {\n  int x;\n};\n}\n"
+        self.objects("types", {"src/base/a.h": one, "io/b.h": one}, "avbd::A is defined in io/b.h:2 and src/base/a.h:2")
+        self.objects("types", {"src/base/a.h": one, "src/base/b.cpp": one.replace("struct A", "enum class A : int")}, "avbd::A")
+        self.objects("types", {"src/base/a.h": one, "src/base/b.h": one.replace("struct A", "template <class T>\nclass A final : B<T>")}, "avbd::A")
+        self.accepts("types", {"src/base/a.h": one, "src/base/b.h": one.replace("avbd", "avbd::rows")})
+        self.accepts("types", {"src/base/a.h": one, "src/base/b.cpp": one.replace("{", "{ namespace {", 1) + "}\n"})
+        self.accepts("types", {"src/base/a.h": one, "src/base/b.h": "namespace avbd {\nstruct A;\nstruct B { struct A {}; };\n}\n"})
+        self.accepts("types", {"src/base/a.h": one, "src/base/b.h": "namespace avbd {\nstruct A f() { return {}; }\n}\n"})
 
     def test_stages(self):
         self.objects("stages", {"src/step/20_contacts.cpp": ""}, "src/step has")

@@ -2,7 +2,8 @@
 //
 // The solid is cut by axis-aligned planes where that removes most of the volume that hulls would add, each part is
 // wrapped in the hull of the true surface within it, and parts whose common hull is good enough are put together again.
-// How far the hulls reach out of the solid is measured on the surface itself, not on voxels.
+// How far the hulls reach out of the solid, and the solid out of the hulls, is measured on the surface itself, not on
+// voxels.
 #pragma once
 
 #include <avbd/hull.h>
@@ -19,7 +20,8 @@ struct DecomposeDef {
   std::span<const Vec3> vertices;                      ///< [m]; equal ones are one
   std::span<const std::array<uint32_t, 3>> triangles;  ///< anticlockwise seen from outside
   int maxHulls = 32;                                   ///< 1 .. 1024
-  /// [m] >= 0: parts are cut until no hull reaches farther out of the solid. 0 takes 0.02 of the largest extent.
+  /// [m] >= 0: parts are cut until no hull reaches farther out of the solid, as far as that can be told: what reaches
+  /// out by less than a 128th of the largest extent, or half a voxel, may be missed. 0 takes 0.02 of that extent.
   float maxError = 0;
   int resolution = 64;          ///< voxels along the largest extent, 8 .. 256: where cuts may lie
   int maxVerticesPerHull = 64;  ///< 4 .. 255

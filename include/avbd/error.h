@@ -21,7 +21,7 @@ class Error : public std::runtime_error {
 };
 
 /// A body's state became NaN or infinite during a step. The step stopped at `stage` and the world keeps the poses and
-/// velocities it had before that step; forces given for it are forgotten.
+/// velocities it had before that step, and the forces given for it (World::clearForces).
 class NonFiniteError : public std::runtime_error {
  public:
   NonFiniteError(std::string stage, uint32_t bodyIndex, uint32_t bodyGeneration);

@@ -12,13 +12,22 @@ namespace avbd {
 
 inline constexpr uint32_t kNoElement = 0xffffffffu;
 
-/// One point of a contact after the last step.
+/// One point of a contact after the last step. Places are those of the start of the step's last substep. Forces are
+/// means over the whole step, all its substeps and rebounds included: times dt they are the impulses of the step. What
+/// a point gave that went within the step counts to the nearest one that is left.
 struct ContactPoint {
-  Vec3d position;      ///< world [m], halfway between the two surfaces, where they were when the step began
-  float separation;    ///< [m] gap at the start of the step along the normal; negative where the shapes overlap
-  float normalForce;   ///< [N] >= 0, mean over the step, pushes B along the normal and A against it
+  Vec3d position;      ///< world [m], halfway between the two surfaces
+  float separation;    ///< [m] gap along the normal; negative where the shapes overlap
+  float normalForce;   ///< [N] >= 0, pushes B along the normal and A against it
   Vec3 frictionForce;  ///< [N] on B
   uint32_t feature;    ///< names the touching features; equal as long as they are the same
+};
+
+/// What of their touch (TouchEvent) the last step saw of two shapes. Its end is in Events::ends.
+enum class TouchPhase : uint8_t {
+  None,     ///< near each other, but no point between them carried force
+  Begins,   ///< they touched, but not in the step before
+  Persists  ///< they touched in the step before too
 };
 
 /// Up to four points between two shapes that share a normal. Two convex shapes have one contact; a shape on a mesh or
@@ -28,19 +37,23 @@ struct Contact {
   BodyId bodyA, bodyB;
   /// Triangle of a Mesh or HeightField that the first point is on (mesh.h: sourceTriangle); else kNoElement.
   uint32_t elementA = kNoElement, elementB = kNoElement;
-  Vec3 normal;  ///< unit, from A to B
+  TouchPhase touch = TouchPhase::None;  ///< of the two shapes, by whatever point
+  Vec3 normal;                          ///< unit, from A to B
   int pointCount = 0;
   std::array<ContactPoint, 4> points;
 };
 
 /// Two shapes began or ceased to touch: have, or no longer have, a point that carries force. Ids may be of shapes
-/// destroyed since.
+/// destroyed since. A touch shorter than a step begins in it, and ends in it or the next.
 struct TouchEvent {
   ShapeId shapeA, shapeB;
   BodyId bodyA, bodyB;
+  Vec3d position;     ///< world [m], of a point between them: of a begin the one that pushed most, of an end the last
+  Vec3 normal;        ///< unit, from A to B, there
+  float impulse = 0;  ///< [N s] >= 0 along the normal over this step, of all their points
 };
 
-/// A shape entered or left a trigger. Ids may be of shapes destroyed since.
+/// A shape entered or left a trigger (ShapeDef::isTrigger). Ids may be of shapes destroyed since.
 struct TriggerEvent {
   ShapeId trigger, visitor;
   BodyId triggerBody, visitorBody;
@@ -53,7 +66,7 @@ struct HitEvent {
   Vec3d position;     ///< world [m]
   Vec3 normal;        ///< unit, from A to B
   float speed = 0;    ///< [m/s] > 0, of approach along the normal at the start of the step
-  float impulse = 0;  ///< [N s] along the normal over the step, of all their points
+  float impulse = 0;  ///< [N s] along the normal over the step, of all their points, rebound included
 };
 
 /// A body moved in the last step.
@@ -63,8 +76,8 @@ struct MoveEvent {
   uint64_t userData = 0;
 };
 
-/// Everything that happened in the last step (all its substeps), each list ordered by ids. Contacts that persist are
-/// in World::contacts(), with their forces.
+/// Everything that happened in the last step (all its substeps), each list ordered by ids. Touches that persist are
+/// in World::contacts(), with their points and forces.
 struct Events {
   std::vector<TouchEvent> begins, ends;
   std::vector<TriggerEvent> enters, leaves;

@@ -114,10 +114,15 @@ struct ShapeDef {
   Pose pose{};           ///< in the body's frame
   float density = 1000;  ///< [kg/m^3] >= 0; where BodyDef.mass is given only ratios count. HalfSpace has no mass.
   Material material{};
-  /// Surfaces of a Mesh or HeightField: its triangles' material indices point in here. Empty: all are `material`.
+  /// Surfaces of a Mesh or HeightField: its triangles' material indices point in here, so there must be enough. Empty:
+  /// all are `material`. At most 65535.
   std::vector<Material> materials{};
   Filter filter{};
-  bool isTrigger = false;     ///< touches nothing; reports what overlaps it (events.h). No mass.
+  /// Touches nothing, has no mass and does not change how its body moves; reports what enters and leaves it (events.h):
+  /// by the filter, shapes of dynamic and kinematic bodies, convex ones if it is not convex itself. It sees neither
+  /// static bodies nor other triggers. A Mesh is its triangles alone, from both sides: what is inside a closed one has
+  /// left it (decompose.h makes hulls of it). A HeightField is solid down to its thickness.
+  bool isTrigger = false;
   bool contactEvents = true;  ///< begin and end of its contacts are reported; of a pair both must want it
   bool hitEvents = false;     ///< hits harder than WorldDef::hitSpeed are reported; one of the pair must want it
   bool contactHook = false;   ///< World's contact hook sees its contacts; one of the pair must want it

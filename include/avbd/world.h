@@ -76,8 +76,9 @@ class World {
   /// lower slot first, in ascending order.
   std::vector<std::array<BodyId, 2>> excludedPairs() const;
 
-  /// Advances time by dt [s], 0 < dt <= 1 and at least 1e-7 for each substep. Throws Error for a bad dt, NonFiniteError
-  /// if a body's state becomes NaN or infinite.
+  /// Advances time by dt [s], 0 < dt <= 1 and at least 1e-7 for each substep. Throws Error for a bad dt or a bad answer
+  /// of the contact hook, NonFiniteError if a body's state becomes NaN or infinite. Poses, velocities and time are then
+  /// those from before, and the forces given for the step are kept for the next one.
   const StepReport& step(float dt);
   const StepReport& report() const;  ///< of the last step
   double time() const;               ///< [s] since the world was made
@@ -114,6 +115,7 @@ class World {
   void addImpulse(BodyId id, Vec3 impulse);             ///< [N s], changes the velocity now
   void addImpulseAt(BodyId id, Vec3 impulse, Vec3d point);
   void addAngularImpulse(BodyId id, Vec3 impulse);  ///< [N m s]
+  void clearForces();  ///< forgets forces and torques given for the next step, of all bodies
   void setDamping(BodyId id, float linear, float angular);
   void setGravityScale(BodyId id, float scale);
   void setLocks(BodyId id, uint8_t locks);
@@ -138,6 +140,8 @@ class World {
   Pose localPose(ShapeId id) const;  ///< in the body's frame
   Material material(ShapeId id) const;
   void setMaterial(ShapeId id, const Material& material);
+  std::vector<Material> materials(ShapeId id) const;
+  void setMaterials(ShapeId id, std::span<const Material> materials);  ///< as ShapeDef::materials
   Filter filter(ShapeId id) const;
   void setFilter(ShapeId id, const Filter& filter);
   uint64_t userData(ShapeId id) const;
@@ -169,15 +173,26 @@ class World {
   uint64_t userData(JointId id) const;
   void setUserData(JointId id, uint64_t data);
 
-  /// Contacts of the last step, ordered by shape ids.
+  /// Contacts of the last step, ordered by shape ids. Touches that began and persist are told apart by Contact::touch.
+  /// What touched within the step but has flown far apart by its end is in Events::begins and hits alone.
   std::vector<Contact> contacts() const;
+  /// The same in place of what `out` holds: its memory is used again.
+  void getContacts(std::vector<Contact>& out) const;
   /// What began, ended and hit in the last step.
   const Events& events() const;
   /// Called in every substep for each contact of a shape with contactHook, before it is solved; may change the plan's
   /// last fields; false refuses the contact for this substep. It must depend on nothing but its argument and the
   /// user's own constant data, must not touch the world, and must not throw. An empty function removes the hook.
   void setContactHook(std::function<bool(ContactPlan&)> hook);
+  // As in ShapeDef; changes count from the next step on. A touch that goes on begins, or ends, for who asks for its
+  // events, or no longer does, in the middle of it.
   bool isTrigger(ShapeId id) const;
+  bool contactEvents(ShapeId id) const;
+  void setContactEvents(ShapeId id, bool wanted);
+  bool hitEvents(ShapeId id) const;
+  void setHitEvents(ShapeId id, bool wanted);
+  bool contactHook(ShapeId id) const;
+  void setContactHook(ShapeId id, bool wanted);
 
   // Queries (query.h): about where shapes are now. Queried geometries are convex: not HalfSpace, Mesh or HeightField.
   // Ties go to the lower shape id. Throw Error for arguments that are not finite, ways of no length, a dead body in the
@@ -208,6 +223,11 @@ class World {
   void castsClosest(std::span<const ShapeCast> casts, std::span<CastHit> out, const QueryFilter& filter = {}) const;
   void overlapTests(std::span<const PlacedGeometry> placed, std::span<uint8_t> out,
                     const QueryFilter& filter = {}) const;  ///< 1 or 0
+  /// nearestClosest() of each.
+  void nearestOfEach(std::span<const PlacedGeometry> placed, float maxDistance, std::span<NearHit> out,
+                     const QueryFilter& filter = {}) const;
+  /// 1 where a shape holds the point, as for containing(); else 0.
+  void pointTests(std::span<const Vec3d> points, std::span<uint8_t> out, const QueryFilter& filter = {}) const;
 
  private:
   struct Impl;

@@ -25,6 +25,7 @@ const StepReport& World::step(float dt) {
   if (dt < kMinSubstep * static_cast<float>(impl_->data.def.substeps)) {
     (path / "dt").refuse(toText(dt), "must be at least " + toText(kMinSubstep) + " for each substep");
   }
+  updateWishes(impl_->data);
   dropForgottenPairs(impl_->data);
   impl_->stepper.step(impl_->data, dt);
   return impl_->data.report;

@@ -95,6 +95,11 @@ void World::addForce(BodyId id, Vec3 force) {
   body.force = body.force + force;
 }
 
+void World::clearForces() {
+  WorldData& data = impl_->data;
+  data.bodyIds.forEach([&](uint32_t slot) { data.bodies[slot].force = data.bodies[slot].torque = {}; });
+}
+
 void World::addForceAt(BodyId id, Vec3 force, Vec3d point) {
   const Path path("World::addForceAt");
   BodyData& body = dynamicBodyOf(impl_->data, id, "World::addForceAt");

@@ -6,12 +6,17 @@
 namespace avbd {
 
 std::vector<Contact> World::contacts() const {
-  const WorldData& data = impl_->data;
   std::vector<Contact> contacts;
-  forEachPair(data, [&](const PairData& pair) {
-    if (pair.manifold.count > 0) contacts.push_back(contactOf(data, pair));
-  });
+  getContacts(contacts);
   return contacts;
+}
+
+void World::getContacts(std::vector<Contact>& out) const {
+  const WorldData& data = impl_->data;
+  out.clear();
+  forEachPair(data, [&](const PairData& pair) {
+    if (contactPoints(pair) > 0) out.push_back(contactOf(data, pair));
+  });
 }
 
 }  // namespace avbd

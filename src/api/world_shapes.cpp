@@ -70,6 +70,16 @@ void World::setMaterial(ShapeId id, const Material& material) {
   shape.material = material;
 }
 
+std::vector<Material> World::materials(ShapeId id) const {
+  return shapeOf(impl_->data, id, "World::materials").materials;
+}
+
+void World::setMaterials(ShapeId id, std::span<const Material> materials) {
+  ShapeData& shape = shapeOf(impl_->data, id, "World::setMaterials");
+  checkMaterials(Path("World::setMaterials") / "materials", materials, shape.geometry);
+  shape.materials.assign(materials.begin(), materials.end());
+}
+
 Filter World::filter(ShapeId id) const { return shapeOf(impl_->data, id, "World::filter").filter; }
 
 void World::setFilter(ShapeId id, const Filter& filter) {

@@ -25,7 +25,7 @@ void turnInto(const CorePair& pair, bool ofB, Vec3d normal, SupportFace& out) {
   }
 }
 
-void candidate(const Contact& c, bool ofB, Vec3d normal, Candidate& out) {
+void candidate(const CoreContact& c, bool ofB, Vec3d normal, CarrierFace& out) {
   turnInto(c.pair, ofB, normal, out.face);
   out.isFace = out.face.count > 2;
   if (!out.isFace) return;
@@ -45,7 +45,7 @@ void change(const CorePair& pair, bool toB, SupportFace& face) {
 }
 
 /// Points found in the reference's frame, as the manifold wants them.
-void place(const Contact& c, bool referenceIsB, Vec3 normal, const ClipResult& found, Manifold& out) {
+void place(const CoreContact& c, bool referenceIsB, Vec3 normal, const ClipResult& found, Manifold& out) {
   const ShapeGeom& reference = referenceIsB ? c.shapes.b : c.shapes.a;
   const Mat3d frame = exactMatrix(referenceIsB ? c.shapes.poseB.q : c.shapes.poseA.q);
   const Vec3 center = referenceIsB ? c.shapes.poseB.p : c.shapes.poseA.p;
@@ -61,7 +61,7 @@ void place(const Contact& c, bool referenceIsB, Vec3 normal, const ClipResult& f
 }
 
 /// The other core's face cut by a reference face.
-void cutBy(const Contact& c, bool ofB, const Candidate& reference, ClipResult& found) {
+void cutBy(const CoreContact& c, bool ofB, const CarrierFace& reference, ClipResult& found) {
   SupportFace incident;
   turnInto(c.pair, !ofB, reference.normal, incident);
   change(c.pair, ofB, incident);
@@ -71,7 +71,7 @@ void cutBy(const Contact& c, bool ofB, const Candidate& reference, ClipResult& f
 }
 
 /// Points on a reference face; false if they do not show the separation.
-bool touchFace(const Contact& c, bool ofB, const Candidate& reference, Manifold& out) {
+bool touchFace(const CoreContact& c, bool ofB, const CarrierFace& reference, Manifold& out) {
   ClipResult found;
   cutBy(c, ofB, reference, found);
   if (found.count == 0 || found.lowest > reference.separation + slackOf(c, reference.separation)) return false;
@@ -80,12 +80,12 @@ bool touchFace(const Contact& c, bool ofB, const Candidate& reference, Manifold&
 }
 
 /// The manifold from the faces that separate most, if that is shown to be right; also if there is none.
-bool touchBestFaces(const Contact& c, Manifold& out) {
-  Candidate a, b;
+bool touchBestFaces(const CoreContact& c, Manifold& out) {
+  CarrierFace a, b;
   if (!bestFaces(c, a, b)) return true;
   if (!a.isFace && !b.isFace) return false;
   const bool ofB = b.separation > a.separation + c.tolerance;
-  Candidate& best = ofB ? b : a;
+  CarrierFace& best = ofB ? b : a;
   turnInto(c.pair, ofB, best.normal, best.face);
   ClipResult found;
   cutBy(c, ofB, best, found);
@@ -95,8 +95,8 @@ bool touchBestFaces(const Contact& c, Manifold& out) {
 }
 
 /// The manifold from the face of either shape that looks along the normal, if it shows as much.
-bool touchFaces(const Contact& c, const CoreNearest& near, Manifold& out) {
-  Candidate a, b;
+bool touchFaces(const CoreContact& c, const CoreNearest& near, Manifold& out) {
+  CarrierFace a, b;
   candidate(c, false, near.normal, a);
   candidate(c, true, near.normal, b);
   const double enough = near.distance - slackOf(c, near.distance);
@@ -121,7 +121,7 @@ void trim(SupportFace& face, Vec3 n, float length) {
 }
 
 /// Two nearly parallel edges.
-bool touchEdges(const Contact& c, const CoreNearest& near, SupportFace& a, SupportFace& b, Manifold& out) {
+bool touchEdges(const CoreContact& c, const CoreNearest& near, SupportFace& a, SupportFace& b, Manifold& out) {
   const Vec3 n = toFloat(near.normal), ea = a.point[1] - a.point[0], eb = b.point[1] - b.point[0];
   const Vec3 across = cross(ea, eb);
   if (dot(across, across) > kParallel * kParallel * dot(ea, ea) * dot(eb, eb)) return false;
@@ -132,7 +132,8 @@ bool touchEdges(const Contact& c, const CoreNearest& near, SupportFace& a, Suppo
   return true;
 }
 
-void touchPoint(const Contact& c, const CoreNearest& near, const SupportFace& a, const SupportFace& b, Manifold& out) {
+void touchPoint(const CoreContact& c, const CoreNearest& near, const SupportFace& a, const SupportFace& b,
+                Manifold& out) {
   const ShapePair& s = c.shapes;
   const double separation = near.distance - s.a.radius - s.b.radius;
   if (!(separation <= s.margin)) return;
@@ -155,7 +156,7 @@ double thinnest(const ShapeGeom& a, const ShapeGeom& b) {
 void collideConvex(const ShapePair& s, Manifold& out) {
   const CorePair pair = corePair(s.a, s.poseA, s.b, s.poseB);
   const double beyond = double{s.a.radius} + s.b.radius + s.margin;
-  const Contact c{s, pair, kTolerance * thinnest(s.a, s.b), beyond};
+  const CoreContact c{s, pair, kTolerance * thinnest(s.a, s.b), beyond};
   if (touchBestFaces(c, out)) return;
   CoreNearest near = coreNearest(pair, beyond);
   if (near.apart || near.distance > beyond) return;

@@ -115,7 +115,7 @@ int bestFace(const View& view, double beyond, double& separation) {
   return best;
 }
 
-bool fill(const View& view, double beyond, Candidate& out) {
+bool fill(const View& view, double beyond, CarrierFace& out) {
   const int best = bestFace(view, beyond, out.separation);
   out.isFace = best >= 0;
   if (!out.isFace) return true;
@@ -127,12 +127,12 @@ bool fill(const View& view, double beyond, Candidate& out) {
 
 }  // namespace
 
-bool bestFaces(const Contact& c, Candidate& a, Candidate& b) {
+bool bestFaces(const CoreContact& c, CarrierFace& a, CarrierFace& b) {
   return fill({c.pair.a, c.pair.b, c.pair, false}, c.beyond, a) &&
          fill({c.pair.b, c.pair.a, c.pair, true}, c.beyond, b);
 }
 
-bool isProven(const Contact& c, const Candidate& face, const ClipResult& found) {
+bool isProven(const CoreContact& c, const CarrierFace& face, const ClipResult& found) {
   if (face.separation >= 0) return found.lowest <= face.separation + c.tolerance;
   const double slack = slackOf(c, face.separation);
   const double d = -face.separation, r = found.inside, m = found.middle;

@@ -17,10 +17,19 @@ constexpr float kTouch = 1e-4f;
 /// A contact deeper than another by this part of the size may come from entering a triangle through another.
 constexpr float kEntered = 1e-3f;
 
+/// A direction in which shallower contacts move the convex shape, and the separation of the deepest of them.
+struct Escape {
+  Vec3 normal;
+  float lowest;  ///< of the convex shape, along the normal
+  float separation;
+};
+
 struct Scratch {
   std::vector<NearTriangle> triangles;
+  NearAlong along;
   std::vector<Touch> touches;
   std::vector<uint32_t> order;
+  std::vector<Escape> escapes;
   FaceRoom room;
 };
 
@@ -171,7 +180,7 @@ void touchTriangle(const ConvexView& convex, Scratch& scratch, uint32_t index) {
     touches.push_back({t.normal, x, x - t.normal * height, height, mixed(t.element, 7), index, true});
     return;
   }
-  const Offer offer = offerAt(convex, scratch.triangles, index, nearest);
+  const Offer offer = offerAt(convex, scratch.triangles, scratch.along, index, nearest);
   if (offer == Offer::Refused) return;
   dropDeep(touches, t.first);
   if (offer == Offer::Covered) return;
@@ -208,7 +217,9 @@ void dropSpare(const ConvexView& convex, Scratch& scratch) {
 void dropEntered(const ConvexView& convex, Scratch& scratch) {
   std::vector<uint32_t>& order = scratch.order;
   std::vector<NearTriangle>& all = scratch.triangles;
+  std::vector<Escape>& escapes = scratch.escapes;
   order.clear();
+  escapes.clear();
   for (uint32_t i = 0; i < all.size(); ++i) {
     if (all[i].count > 0) order.push_back(i);
   }
@@ -216,17 +227,28 @@ void dropEntered(const ConvexView& convex, Scratch& scratch) {
     return all[a].separation != all[b].separation ? all[a].separation > all[b].separation : a < b;
   });
   const float least = kEntered * convex.size;
+  const auto addEscape = [&](const NearTriangle& t) {
+    const Vec3 u = scratch.touches[t.first].normal;
+    // One of an older direction's may be there twice, which takes time and no more.
+    const size_t few = escapes.size() < 8 ? escapes.size() : 8;
+    for (size_t i = escapes.size() - few; i < escapes.size(); ++i) {
+      if (escapes[i].normal == u) return static_cast<void>(escapes[i].separation = t.separation);
+    }
+    escapes.push_back({u, convex.lowest(u), t.separation});
+  };
+  // The deeper, the more are shallower by enough: they are the first of the order, and are decided on before.
+  size_t shallower = 0;
   for (size_t k = 1; k < order.size(); ++k) {
     NearTriangle& deep = all[order[k]];
     if (!deep.isFace || deep.separation > -least) continue;
-    for (size_t i = 0; i < k && deep.count > 0; ++i) {
-      const NearTriangle& shallow = all[order[i]];
-      if (shallow.count == 0 || deep.separation > 2 * shallow.separation - least) continue;
-      const Vec3 u = scratch.touches[shallow.first].normal;
-      const float top = larger(dot(u, deep.v[0]), larger(dot(u, deep.v[1]), dot(u, deep.v[2])));
-      if (convex.lowest(u) - top >= shallow.separation - convex.touch) {
-        deep.count = 0;
-      }
+    for (; shallower < k && deep.separation <= 2 * all[order[shallower]].separation - least; ++shallower) {
+      if (all[order[shallower]].count > 0) addEscape(all[order[shallower]]);
+    }
+    for (const Escape& e : escapes) {
+      const float top = larger(dot(e.normal, deep.v[0]), larger(dot(e.normal, deep.v[1]), dot(e.normal, deep.v[2])));
+      if (e.lowest - top < e.separation - convex.touch) continue;
+      deep.count = 0;
+      break;
     }
   }
 }
@@ -270,6 +292,7 @@ void collideSurface(const ShapeGeom& convex, const NearPose& poseConvex, const S
     view.sunk = depth > 0;
   }
   gather(view, surface, origin, scratch.triangles);
+  scratch.along.clear();
   scratch.touches.clear();
   scratch.room.normal = {};
   for (uint32_t i = 0; i < scratch.triangles.size(); ++i) {

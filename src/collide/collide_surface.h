@@ -10,7 +10,7 @@ namespace avbd {
 
 struct SurfacePatch {
   Manifold manifold;      ///< normal from the convex shape to the surface
-  uint32_t element = 0;   ///< triangle of the deepest point
+  uint32_t element = 0;   ///< triangle of the first point
   uint16_t material = 0;  ///< index into ShapeDef::materials
 };
 

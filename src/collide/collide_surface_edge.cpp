@@ -1,4 +1,6 @@
 // Contact on a triangle's edges and corners: which directions the surface offers there, and the points.
+#include <algorithm>
+
 #include "collide/collide_surface_parts.h"
 
 namespace avbd {
@@ -161,7 +163,37 @@ int farthestCorners(const NearTriangle& t, Vec3 u) {
   return corners;
 }
 
-Offer offerAt(const ConvexView& convex, const std::vector<NearTriangle>& all, uint32_t index, const Nearest& nearest) {
+const std::vector<uint32_t>& NearAlong::at(const std::vector<NearTriangle>& all, Vec3 point, float reach) {
+  const auto lowest = [](const NearTriangle& t) { return smaller(t.v[0].x, smaller(t.v[1].x, t.v[2].x)); };
+  const auto highest = [](const NearTriangle& t) { return larger(t.v[0].x, larger(t.v[1].x, t.v[2].x)); };
+  if (starts_.size() != all.size()) {
+    starts_.clear();
+    widest_ = 0;
+    for (uint32_t i = 0; i < all.size(); ++i) {
+      starts_.push_back({lowest(all[i]), i});
+      widest_ = larger(widest_, highest(all[i]) - lowest(all[i]));
+    }
+    std::sort(starts_.begin(), starts_.end(),
+              [](Start a, Start b) { return a.x != b.x ? a.x < b.x : a.triangle < b.triangle; });
+  }
+  found_.clear();
+  const auto begin = std::lower_bound(starts_.begin(), starts_.end(), point.x - reach - 1.001f * widest_,
+                                      [](Start s, float x) { return s.x < x; });
+  for (auto s = begin; s != starts_.end() && s->x <= point.x + reach; ++s) {
+    const NearTriangle& t = all[s->triangle];
+    const float low = smaller(t.v[0].z, smaller(t.v[1].z, t.v[2].z));
+    const float high = larger(t.v[0].z, larger(t.v[1].z, t.v[2].z));
+    if (highest(t) >= point.x - reach && low <= point.z + reach && high >= point.z - reach) {
+      found_.push_back(s->triangle);
+    }
+  }
+  // In the order of all of them: sums of normals depend on it.
+  std::sort(found_.begin(), found_.end());
+  return found_;
+}
+
+Offer offerAt(const ConvexView& convex, const std::vector<NearTriangle>& all, NearAlong& along, uint32_t index,
+              const Nearest& nearest) {
   const NearTriangle& t = all[index];
   const Vec3 u = -nearest.normal;
   const int corners = farthestCorners(t, u), edge = edgeOf(corners);
@@ -170,10 +202,12 @@ Offer offerAt(const ConvexView& convex, const std::vector<NearTriangle>& all, ui
   if (dot(u, convex.center - point) < 0) return Offer::Refused;
   Offer offer = edge >= 0 ? offerAcross(t, edge, u) : offerAtCorner(t, corners);
   Vec3 front = t.normal * angleAt(t, point, convex.touch);
-  for (uint32_t j = 0; j < all.size() && offer != Offer::Refused; ++j) {
+  if (offer == Offer::Refused) return offer;
+  for (const uint32_t j : along.at(all, point, 2 * convex.touch)) {
     if (j == index) continue;
     const Offer beside = offerBeside(convex, all[j], u, point, front);
     if (beside != Offer::Given) offer = beside;
+    if (offer == Offer::Refused) return offer;
   }
   // Not from behind: Baerentzen and Aanaes, Signed distance computation using the angle weighted pseudonormal (2005).
   return dot(u, front) > 0 ? offer : Offer::Refused;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "collide/collide_convex_oracle.h"
 #include "collide/collide_surface_oracle.h"
-#include "collide/convex.h"
 
 namespace avbd::surface_test {
 namespace {
@@ -86,9 +86,76 @@ TEST(CollideSurfaceLaw, spheresMatchTheNearestOfAllTriangles) {
   EXPECT_GT(touched, 300);
 }
 
+using Edges = std::vector<std::pair<Vec3d, Vec3d>>;
+
+/// Corners and edges of a shape's core; a curved one has none.
+void coreOf(const ShapeGeom& g, const NearPose& pose, std::vector<Vec3d>& corners, Edges& edges) {
+  if (g.type == ShapeType::Hull) {
+    const auto at = [&](size_t i) { return oracle::unitRotate(pose.q, toDouble(g.hull().vertices()[i])) + pose.p; };
+    for (size_t i = 0; i < g.hull().vertices().size(); ++i) corners.push_back(at(i));
+    for (const auto& e : g.hull().edges()) edges.push_back({at(e.vertex[0]), at(e.vertex[1])});
+  } else if (g.type == ShapeType::Box || g.type == ShapeType::Capsule) {
+    const oracle::Solid s = oracle::solidOf(g, pose);
+    corners = s.corners;
+    for (const auto& e : s.edges)
+      edges.push_back({corners[static_cast<size_t>(e.first)], corners[static_cast<size_t>(e.second)]});
+  }
+}
+
+/// The gap of a shape and a triangle: the largest over the directions between their corners and edges and of their
+/// faces, among which the best one is where both are made of these; for a curved shape by climbing.
+double gapToTriangle(const ShapeGeom& geom, const NearPose& pose, const std::array<Vec3, 3>& t,
+                     std::mt19937& climbing) {
+  ShapeGeom triangle{ShapeType::Triangle, 0, {}};
+  triangle.data = t.data();
+  const oracle::Asked asked{geom, triangle, pose, {}};
+  std::vector<Vec3d> corners, tries, along, v{toDouble(t[0]), toDouble(t[1]), toDouble(t[2])};
+  Edges edges, sides{{v[0], v[1]}, {v[1], v[2]}, {v[2], v[0]}};
+  coreOf(geom, pose, corners, edges);
+  double best = -1e300;
+  if (corners.empty()) {
+    for (int k = 0; k < 6; ++k)
+      best = std::fmax(best, oracle::largestGap(asked, v[0] - pose.p, 200 + 31 * k, climbing));
+    return best;
+  }
+  oracle::flatParts(geom, pose.q, tries, along);
+  oracle::flatParts(triangle, {}, tries, along);
+  const auto across = [](Vec3d d, const std::pair<Vec3d, Vec3d>& e) {
+    const Vec3d u = e.second - e.first;
+    return d - u * (dot(d, u) / dot(u, u));
+  };
+  for (const Vec3d& a : corners) {
+    for (const Vec3d& b : v) tries.push_back(b - a);
+    for (const auto& e : sides) tries.push_back(across(e.first - a, e));
+  }
+  for (const auto& e : edges) {
+    for (const Vec3d& b : v) tries.push_back(across(b - e.first, e));
+    for (const auto& f : sides) {
+      tries.push_back(crossOf(e.second - e.first, f.second - f.first));
+      tries.push_back(tries.back() * -1.0);
+    }
+  }
+  for (const Vec3d& n : tries) {
+    if (length(n) > 1e-9) best = std::fmax(best, asked.gap(oracle::unitOf(n)));
+  }
+  return best;
+}
+
+/// The gap of a shape and the nearest of many triangles, if it is below `most`.
+double gapToNearest(const ShapeGeom& geom, const NearPose& pose, const Rough& rough, double most,
+                    std::mt19937& climbing) {
+  constexpr double kReach = 0.55;  // of all shapes below
+  double least = most;
+  for (const auto& t : rough.triangles) {
+    if (length(closest(toDouble(pose.p), t) - pose.p) - kReach > least) continue;
+    least = std::fmin(least, gapToTriangle(geom, pose, t, climbing));
+  }
+  return least;
+}
+
 /// Shapes that hover over rough ground: the least separation is the distance to the nearest of all triangles.
 TEST(CollideSurfaceLaw, hoveringShapesMatchTheNearestOfAllTriangles) {
-  std::mt19937 random(5);
+  std::mt19937 random(5), climbing(1);
   std::uniform_real_distribution<float> unit(-1, 1);
   const Geometry shapes[] = {Box{0.4f, 0.2f, 0.3f}, Capsule{0.15f, 0.3f}, Cylinder{0.3f, 0.2f},
                              Hull{prism(0.4f, 0.2f)}};
@@ -99,21 +166,15 @@ TEST(CollideSurfaceLaw, hoveringShapesMatchTheNearestOfAllTriangles) {
       const ShapeGeom geom = toShapeGeom(shapes[i % 4]);
       const NearPose pose{{unit(random), 0.7f + 0.4f * unit(random), unit(random)},
                           turned(3 * unit(random), {unit(random), unit(random), 1})};
-      float least = 1e30f;
-      for (const auto& t : rough.triangles) {
-        ShapeGeom triangle{ShapeType::Triangle, 0, {}};
-        triangle.data = t.data();
-        const Nearest n = nearest(geom, pose, triangle, {}, 1);
-        if (!n.apart) least = std::fmin(least, n.distance);
-      }
       constexpr float kMargin = 0.1f;
-      if (least < 1e-3f || std::fabs(least - kMargin) < 1e-3f || least > 1) continue;
+      const double least = gapToNearest(geom, pose, rough, 2 * kMargin, climbing);
+      if (least < 1e-3 || std::fabs(least - kMargin) < 1e-3) continue;
       const auto patches = touch(geom, pose, rough.geometry, {}, kMargin);
       ASSERT_EQ(patches.empty(), least > kMargin) << seed << ' ' << i << " at " << least;
       if (patches.empty()) continue;
       ++touched;
       // Directions within a hundredth of a face's count as the face's.
-      EXPECT_NEAR(deepest(patches[0].manifold), least, 1e-3f) << seed << ' ' << i;
+      EXPECT_NEAR(deepest(patches[0].manifold), least, 1e-3) << seed << ' ' << i;
     }
   }
   EXPECT_GT(touched, 60);
@@ -261,6 +322,43 @@ TEST(CollideSurfaceLaw, answersAreWellFormedHoweverDeep) {
       }
       std::sort(names.begin(), names.end());
       EXPECT_TRUE(std::adjacent_find(names.begin(), names.end()) == names.end());
+    }
+  }
+}
+
+/// Where the points' depths differ, the deepest need not be the first.
+TEST(CollideSurfaceLaw, theElementIsTheTriangleOfTheFirstPoint) {
+  const Rough rough = roughMesh(30, 0.3f, 0.2f, 2);
+  int several = 0;
+  for (const Case& c : cases(600)) {
+    for (const SurfacePatch& p : touch(toShapeGeom(c.convex), c.pose, rough.geometry, {}, 0.1f)) {
+      const ManifoldPoint& first = p.manifold.points[0];
+      const Vec3d at = toDouble(first.position), on = closest(at, rough.triangles[p.element]);
+      EXPECT_LT(length(at - on), 0.51 * std::fabs(first.separation) + 1e-3);
+      several += p.manifold.count > 1 && first.separation > deepest(p.manifold);
+    }
+  }
+  EXPECT_GT(several, 0);
+}
+
+/// A slab on thousands of triangles touches with its corners, as on two.
+TEST(CollideSurfaceLaw, aSlabOnAFineMeshTouchesAsOnACoarseOne) {
+  const ShapeGeom slab = toShapeGeom(Box{5, 0.25f, 5});
+  const Geometry coarse = meshOf(grid(1, 1, 16, flat)), fine = meshOf(grid(160, 160, 0.1f, flat));
+  for (const float height : {0.26f, 0.25f, 0.2f}) {
+    const NearPose pose{{0.03f, height, -0.04f}, turned(0.3f, {0, 1, 0})};
+    const auto few = touch(slab, pose, coarse, {}, 0.02f), many = touch(slab, pose, fine, {}, 0.02f);
+    ASSERT_EQ(few.size(), 1u);
+    ASSERT_EQ(many.size(), 1u);
+    ASSERT_EQ(few[0].manifold.count, 4);
+    ASSERT_EQ(many[0].manifold.count, 4);
+    for (const ManifoldPoint& p : few[0].manifold.points) {
+      const auto& points = many[0].manifold.points;
+      const auto same = std::find_if(std::begin(points), std::end(points),
+                                     [&](const ManifoldPoint& q) { return q.feature == p.feature; });
+      ASSERT_NE(same, std::end(points));
+      EXPECT_LT(length(same->position - p.position), 1e-5f);
+      EXPECT_NEAR(same->separation, p.separation, 1e-6f);
     }
   }
 }

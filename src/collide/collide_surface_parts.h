@@ -63,6 +63,23 @@ struct Touch {
   bool spare = false;  ///< counts only where no triangle beside has one
 };
 
+/// The near triangles by where they begin along x, so that those at a point are found without asking all.
+class NearAlong {
+ public:
+  void clear() { starts_.clear(); }
+  /// Triangles that may come as near as `reach` to a point, ascending.
+  const std::vector<uint32_t>& at(const std::vector<NearTriangle>& all, Vec3 point, float reach);
+
+ private:
+  struct Start {
+    float x;
+    uint32_t triangle;
+  };
+  std::vector<Start> starts_;  ///< made when first asked for
+  float widest_ = 0;
+  std::vector<uint32_t> found_;
+};
+
 /// Angle below which directions are one, as its sine.
 inline constexpr float kSameDirection = 0.01f;
 /// Cosine of that angle.
@@ -113,7 +130,8 @@ enum class Offer : uint8_t {
 /// The corners of a triangle that lie farthest along u: bit k for corner k.
 int farthestCorners(const NearTriangle& triangle, Vec3 u);
 /// Of the direction out of the surface that `nearest` asks of a triangle on whose edge or corner its point lies.
-Offer offerAt(const ConvexView& convex, const std::vector<NearTriangle>& all, uint32_t index, const Nearest& nearest);
+Offer offerAt(const ConvexView& convex, const std::vector<NearTriangle>& all, NearAlong& along, uint32_t index,
+              const Nearest& nearest);
 /// Adds the touches on the edge or corner of the triangle that lies farthest along the direction.
 void touchEdge(const ConvexView& convex, const NearTriangle& triangle, uint32_t index, const Nearest& nearest,
                std::vector<Touch>& out);

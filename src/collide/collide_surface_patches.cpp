@@ -10,7 +10,7 @@ namespace {
 constexpr float kOnePatch = 0.9945f;
 constexpr uint32_t kTaken = 0xffffffffu;
 
-struct Candidate {
+struct PatchPoint {
   Vec3 position;
   float separation;
   uint32_t feature, triangle;
@@ -20,7 +20,7 @@ float squareOf(Vec3 a) { return dot(a, a); }
 
 /// Index of the candidate for which `value` is largest; of equals the first.
 template <class F>
-int largest(const std::vector<Candidate>& all, F&& value) {
+int largest(const std::vector<PatchPoint>& all, F&& value) {
   int best = -1;
   float most = 0;
   for (int i = 0; i < static_cast<int>(all.size()); ++i) {
@@ -34,25 +34,25 @@ int largest(const std::vector<Candidate>& all, F&& value) {
 
 /// The deepest (of several equal ones the outermost), the farthest from it, and on both sides of the line between them
 /// those that span most.
-void reduce(const ConvexView& convex, Vec3 normal, std::vector<Candidate>& all) {
+void reduce(const ConvexView& convex, Vec3 normal, std::vector<PatchPoint>& all) {
   if (all.size() <= 2) return;
   float least = all[0].separation;
   Vec3 mean;
-  for (const Candidate& c : all) {
+  for (const PatchPoint& c : all) {
     least = smaller(least, c.separation);
     mean = mean + c.position;
   }
   mean = mean * (1 / static_cast<float>(all.size()));
   const float depth = least + 10 * convex.touch;
   const auto at = [&](int i) { return all[static_cast<size_t>(i)]; };
-  const Candidate a =
-      at(largest(all, [&](const Candidate& c) { return c.separation <= depth ? squareOf(c.position - mean) : -1; }));
-  const Candidate b = at(largest(all, [&](const Candidate& c) { return squareOf(c.position - a.position); }));
-  const auto area = [&](const Candidate& c) {
+  const PatchPoint a =
+      at(largest(all, [&](const PatchPoint& c) { return c.separation <= depth ? squareOf(c.position - mean) : -1; }));
+  const PatchPoint b = at(largest(all, [&](const PatchPoint& c) { return squareOf(c.position - a.position); }));
+  const auto area = [&](const PatchPoint& c) {
     return dot(normal, cross(b.position - a.position, c.position - a.position));
   };
-  const Candidate left = at(largest(all, area));
-  const Candidate right = at(largest(all, [&](const Candidate& c) { return -area(c); }));
+  const PatchPoint left = at(largest(all, area));
+  const PatchPoint right = at(largest(all, [&](const PatchPoint& c) { return -area(c); }));
   const float thin = convex.touch * length(b.position - a.position);
   const bool hasLeft = area(left) > thin, hasRight = area(right) < -thin;
   all.clear();
@@ -62,20 +62,104 @@ void reduce(const ConvexView& convex, Vec3 normal, std::vector<Candidate>& all) 
   if (hasRight) all.push_back(right);
 }
 
-/// Adds a touch unless a point is already there; of two stays the shape's own corner, else the deeper.
-void addCandidate(const ConvexView& convex, const Touch& touch, Vec3 normal, std::vector<Candidate>& all) {
-  const Vec3 gap = touch.onConvex - touch.onSurface;
-  const float separation = touch.normal == normal ? touch.separation : dot(normal, gap);
-  const Candidate c{(touch.onConvex + touch.onSurface) * 0.5f, separation, touch.feature, touch.triangle};
-  const float near = 4 * convex.touch * convex.touch;
-  for (Candidate& other : all) {
-    if (squareOf(other.position - c.position) > near) continue;
-    const bool isCorner = (c.feature & kCorner) != 0, wasCorner = (other.feature & kCorner) != 0;
-    if (isCorner != wasCorner ? isCorner : c.separation < other.separation) other = c;
-    return;
+/// The points of a patch in the making. Many are found by the cells of a grid, so that gathering stays linear.
+class PatchPoints {
+ public:
+  std::vector<PatchPoint> all;
+
+  void begin(const ConvexView& convex) {
+    all.clear();
+    near_ = 2 * convex.touch;
+    isGrid_ = false;
   }
-  all.push_back(c);
-}
+
+  /// Adds a touch unless a point is already there; of two stays the shape's own corner, else the deeper.
+  void add(const Touch& touch, Vec3 normal) {
+    const Vec3 gap = touch.onConvex - touch.onSurface;
+    const float separation = touch.normal == normal ? touch.separation : dot(normal, gap);
+    const PatchPoint c{(touch.onConvex + touch.onSurface) * 0.5f, separation, touch.feature, touch.triangle};
+    const uint32_t had = isGrid_ ? findInGrid(c.position) : findInAll(c.position);
+    if (had == kNone) {
+      all.push_back(c);
+      if (isGrid_) {
+        next_.push_back(kNone);
+        link(static_cast<uint32_t>(all.size() - 1));
+      } else if (all.size() > kFew) {
+        makeGrid();
+      }
+      return;
+    }
+    PatchPoint& other = all[had];
+    const bool isCorner = (c.feature & kCorner) != 0, wasCorner = (other.feature & kCorner) != 0;
+    if (!(isCorner != wasCorner ? isCorner : c.separation < other.separation)) return;
+    if (isGrid_) unlink(had);
+    other = c;
+    if (isGrid_) link(had);
+  }
+
+ private:
+  static constexpr uint32_t kNone = 0xffffffffu;
+  static constexpr size_t kFew = 32;  // up to so many are asked one by one
+  static constexpr uint32_t kSlots = 4096;
+
+  struct Cell {
+    int32_t x, y, z;
+  };
+  /// Places near each other lie in one cell or in two that touch.
+  Cell cellOf(Vec3 p) const {
+    const auto place = [&](float v) { return static_cast<int32_t>(clampTo(std::floor(v / (2 * near_)), -1e9f, 1e9f)); };
+    return {place(p.x), place(p.y), place(p.z)};
+  }
+  static uint32_t slot(Cell c) {
+    return mixed(mixed(static_cast<uint32_t>(c.x), static_cast<uint32_t>(c.y)), static_cast<uint32_t>(c.z)) &
+           (kSlots - 1);
+  }
+  bool isHere(uint32_t index, Vec3 p) const { return !(squareOf(all[index].position - p) > near_ * near_); }
+
+  uint32_t findInAll(Vec3 p) const {
+    for (uint32_t i = 0; i < all.size(); ++i) {
+      if (isHere(i, p)) return i;
+    }
+    return kNone;
+  }
+  /// The same: the first of those that are near.
+  uint32_t findInGrid(Vec3 p) const {
+    // With cells twice as wide as near, a place's neighbours are in the cells of the corners of a box about it.
+    const float reach = 1.001f * near_;  // more than distances round
+    const Cell low = cellOf(p - Vec3{reach, reach, reach}), high = cellOf(p + Vec3{reach, reach, reach});
+    uint32_t first = kNone;
+    for (int32_t x = low.x; x <= high.x; ++x) {
+      for (int32_t y = low.y; y <= high.y; ++y) {
+        for (int32_t z = low.z; z <= high.z; ++z) {
+          for (uint32_t i = heads_[slot({x, y, z})]; i != kNone; i = next_[i]) {
+            if (i < first && isHere(i, p)) first = i;
+          }
+        }
+      }
+    }
+    return first;
+  }
+  void makeGrid() {
+    isGrid_ = true;
+    heads_.assign(kSlots, kNone);
+    next_.assign(all.size(), kNone);
+    for (uint32_t i = 0; i < all.size(); ++i) link(i);
+  }
+  void link(uint32_t index) {
+    uint32_t& head = heads_[slot(cellOf(all[index].position))];
+    next_[index] = head;
+    head = index;
+  }
+  void unlink(uint32_t index) {
+    uint32_t* at = &heads_[slot(cellOf(all[index].position))];
+    while (*at != index) at = &next_[*at];
+    *at = next_[index];
+  }
+
+  float near_ = 0;
+  bool isGrid_ = false;
+  std::vector<uint32_t> heads_, next_;
+};
 
 bool comesBefore(Vec3 a, Vec3 b) { return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z); }
 
@@ -103,11 +187,9 @@ void makeUnique(std::vector<SurfacePatch>& patches) {
   }
 }
 
-void finish(std::vector<Candidate>& points, const std::vector<NearTriangle>& triangles, SurfacePatch& patch) {
-  size_t deepest = 0;
+void finish(std::vector<PatchPoint>& points, const std::vector<NearTriangle>& triangles, SurfacePatch& patch) {
   patch.manifold.count = 0;
   for (size_t k = 0; k < points.size(); ++k) {
-    if (points[k].separation < points[deepest].separation) deepest = k;
     ManifoldPoint& p = patch.manifold.points[patch.manifold.count++];
     p = {points[k].position, points[k].separation, points[k].feature};
     for (int other = 0; other + 1 < patch.manifold.count; ++other) {
@@ -115,7 +197,7 @@ void finish(std::vector<Candidate>& points, const std::vector<NearTriangle>& tri
         p.feature = mixed(p.feature, 0x10000u + static_cast<uint32_t>(k));
     }
   }
-  patch.element = triangles[points[deepest].triangle].element;
+  patch.element = triangles[points[0].triangle].element;
 }
 
 }  // namespace
@@ -123,7 +205,7 @@ void finish(std::vector<Candidate>& points, const std::vector<NearTriangle>& tri
 void makePatches(const ConvexView& convex, const std::vector<NearTriangle>& triangles, std::vector<Touch>& touches,
                  std::vector<SurfacePatch>& out) {
   thread_local std::vector<uint32_t> order;
-  thread_local std::vector<Candidate> points;
+  thread_local PatchPoints points;
   order.resize(touches.size());
   for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
@@ -133,19 +215,19 @@ void makePatches(const ConvexView& convex, const std::vector<NearTriangle>& tria
     if (order[first] == kTaken) continue;
     const Vec3 normal = touches[order[first]].normal;
     const uint16_t material = triangles[touches[order[first]].triangle].material;
-    points.clear();
+    points.begin(convex);
     for (size_t k = first; k < order.size(); ++k) {
       if (order[k] == kTaken) continue;
       const Touch& touch = touches[order[k]];
       if (triangles[touch.triangle].material != material || dot(touch.normal, normal) < kOnePatch) continue;
-      addCandidate(convex, touch, normal, points);
+      points.add(touch, normal);
       order[k] = kTaken;
     }
-    reduce(convex, normal, points);
+    reduce(convex, normal, points.all);
     SurfacePatch& patch = out.emplace_back();
     patch.manifold.normal = -normal;
     patch.material = material;
-    finish(points, triangles, patch);
+    finish(points.all, triangles, patch);
   }
   if (out.size() > 1) makeUnique(out);
 }

@@ -73,4 +73,81 @@ Reach reachOf(const HullData& hull, const Solid3& solid, double floor, double sl
   return reach;
 }
 
+namespace {
+
+class LeftOutside {
+ public:
+  LeftOutside(const std::vector<std::shared_ptr<const HullData>>& hulls, const Solid3& solid, double floor,
+              double slack)
+      : hulls_(hulls), solid_(solid), floor_(floor), slack_(slack) {
+    for (const auto& hull : hulls) {
+      std::vector<Vec3d>& corners = corners_.emplace_back();
+      for (const Vec3& v : hull->vertices()) corners.push_back(toDouble(v));
+    }
+  }
+
+  Reach measure() {
+    std::vector<Near> all;
+    for (uint32_t i = 0; i < hulls_.size(); ++i) all.push_back({i, 0});
+    const Vec3d lower = solid_.surface.lower(), size = solid_.surface.upper() - lower;
+    search(lower + size * 0.5, std::fmax(size.x, std::fmax(size.y, size.z)) * 0.5, all);
+    return {found_, limit()};
+  }
+
+ private:
+  /// A hull, and the largest distance above a plane of its.
+  struct Near {
+    uint32_t hull;
+    double above;
+  };
+
+  double limit() const { return std::fmax(floor_, found_ + slack_); }
+
+  /// `candidates`: hulls of which one is nearest to each point of the cube.
+  void search(Vec3d middle, double half, const std::vector<Near>& candidates) {
+    const double far = half * kHalfDiagonal;
+    std::vector<Near> near;
+    for (const Near& c : candidates) {
+      near.push_back({c.hull, abovePlanes(*hulls_[c.hull], middle)});
+      // About the middle is a ball of that depth within the hull.
+      if (near.back().above <= 0 && near.back().above + far <= limit()) return;
+    }
+    const double distance = distanceFrom(middle, near);
+    if (distance + far <= limit()) return;
+    const Cell c = solid_.grid.cellOf(middle);
+    if (solid_.grid.at(c.x, c.y, c.z) == Voxel::Outside && !solid_.surface.isWithin(middle, far)) return;
+    const double outside = solid_.outside(middle);
+    if (outside > far) return;
+    // A point of the solid is so near that no more than the way to it can be lost.
+    found_ = std::fmax(found_, distance - std::fmax(outside, 0));
+    if (distance + far <= limit()) return;
+    std::erase_if(near, [&](const Near& n) { return n.above > distance + 2 * far; });
+    const double h = half / 2;
+    for (int i = 0; i < 8; ++i) search(middle + Vec3d{i & 1 ? h : -h, i & 2 ? h : -h, i & 4 ? h : -h}, h, near);
+  }
+
+  double distanceFrom(Vec3d p, std::vector<Near>& near) const {
+    std::sort(near.begin(), near.end(),
+              [](const Near& l, const Near& r) { return l.above != r.above ? l.above < r.above : l.hull < r.hull; });
+    double least = near[0].above <= 0 ? 0 : 1e300;
+    for (const Near& n : near) {
+      if (n.above >= least) break;
+      if (n.above > 0) least = std::fmin(least, length(p - nearestInHull(p, corners_[n.hull])));
+    }
+    return least;
+  }
+
+  const std::vector<std::shared_ptr<const HullData>>& hulls_;
+  const Solid3& solid_;
+  double floor_, slack_, found_ = 0;
+  std::vector<std::vector<Vec3d>> corners_;
+};
+
+}  // namespace
+
+Reach leftOutside(const std::vector<std::shared_ptr<const HullData>>& hulls, const Solid3& solid, double floor,
+                  double slack) {
+  return LeftOutside(hulls, solid, floor, slack).measure();
+}
+
 }  // namespace avbd

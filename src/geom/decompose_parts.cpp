@@ -95,8 +95,47 @@ bool endsAt(const std::array<Vec3d, 3>& v, const Vec3d& lower, const Vec3d& uppe
   return false;
 }
 
+/// Triangles by where they begin along x, so that those near one of many parts are found without asking all.
+class TrianglesAlong {
+ public:
+  TrianglesAlong(const ClosedSurface& surface, const std::vector<uint32_t>& triangles) {
+    for (uint32_t t : triangles) {
+      const auto v = surface.triangle(t);
+      boxes_.push_back({smallest(v[0], smallest(v[1], v[2])), largest(v[0], largest(v[1], v[2])), t});
+      widest_ = std::fmax(widest_, boxes_.back().upper.x - boxes_.back().lower.x);
+    }
+    std::sort(boxes_.begin(), boxes_.end(), [](const Box& l, const Box& r) {
+      return l.lower.x != r.lower.x ? l.lower.x < r.lower.x : l.triangle < r.triangle;
+    });
+  }
+
+  /// Those whose boxes meet a box, ascending.
+  std::vector<uint32_t> near(const Vec3d& lower, const Vec3d& upper) const {
+    std::vector<uint32_t> found;
+    // One that ends within the box begins no farther before it than the widest is wide; twice that, as sums round.
+    auto box = std::lower_bound(boxes_.begin(), boxes_.end(), lower.x - 2 * widest_,
+                                [](const Box& b, double x) { return b.lower.x < x; });
+    for (; box != boxes_.end() && box->lower.x <= upper.x; ++box) {
+      if (box->upper.x >= lower.x && box->lower.y <= upper.y && box->upper.y >= lower.y && box->lower.z <= upper.z &&
+          box->upper.z >= lower.z) {
+        found.push_back(box->triangle);
+      }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+ private:
+  struct Box {
+    Vec3d lower, upper;
+    uint32_t triangle;
+  };
+  std::vector<Box> boxes_;
+  double widest_ = 0;
+};
+
 /// Box, triangles and points of one connected set of cells.
-void fillPart(const Solid3& solid, SolidPart& out, const std::vector<uint32_t>& triangles, const Labels& labels) {
+void fillPart(const Solid3& solid, SolidPart& out, const TrianglesAlong& triangles, const Labels& labels) {
   out.low = out.high = out.cells[0];
   for (Cell c : out.cells) {
     out.low = {std::min(out.low.x, c.x), std::min(out.low.y, c.y), std::min(out.low.z, c.z)};
@@ -112,7 +151,7 @@ void fillPart(const Solid3& solid, SolidPart& out, const std::vector<uint32_t>& 
     return Cell{std::clamp(c.x, out.low.x, out.high.x - 1), std::clamp(c.y, out.low.y, out.high.y - 1),
                 std::clamp(c.z, out.low.z, out.high.z - 1)};
   };
-  for (uint32_t t : triangles) {
+  for (uint32_t t : triangles.near(lower, upper)) {
     const auto corners = solid.surface.triangle(t);
     std::vector<Vec3d> polygon(corners.begin(), corners.end());
     for (int axis = 0; axis < 3 && !polygon.empty(); ++axis) clip(polygon, axis, part(lower, axis), part(upper, axis));
@@ -126,10 +165,12 @@ void fillPart(const Solid3& solid, SolidPart& out, const std::vector<uint32_t>& 
     if (label >= 0 && label != own) continue;
     for (const Vec3d& p : polygon) out.points.push_back(toFloat(p));
   }
-  // Where two or three cuts meet inside the solid. (One on the surface is a triangle's.)
+  // Where two or three cuts meet inside the solid. (One on the surface is a triangle's.) A cell that no part took, as
+  // it holds next to nothing on this side of a cut, is everyone's.
   for (int i = 0; i < 8; ++i) {
     const Vec3d corner{i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z};
-    if (labels.of(cellIn(corner)) == own && solid.outside(corner) < -1e-6 * solid.grid.cellSize())
+    const int label = labels.of(cellIn(corner));
+    if ((label < 0 || label == own) && solid.outside(corner) < -1e-6 * solid.grid.cellSize())
       out.points.push_back(toFloat(corner));
   }
 }
@@ -144,10 +185,11 @@ std::vector<SolidPart> connectedParts(const Solid3& solid, const std::vector<Cel
   const Labels labels(cells);
   std::vector<SolidPart> parts(labels.count());
   for (Cell c : cells) parts[labels.of(c)].cells.push_back(c);
+  const TrianglesAlong along(solid.surface, triangles);
   for (SolidPart& p : parts) {
     p.lower = box.lower;
     p.upper = box.upper;
-    fillPart(solid, p, triangles, labels);
+    fillPart(solid, p, along, labels);
   }
   // Cells that the surface only grazes hold nothing.
   std::erase_if(parts, [](const SolidPart& p) { return p.points.empty(); });

@@ -10,8 +10,11 @@
 namespace avbd {
 namespace {
 
-Vec3d least(Vec3d a, Vec3d b) { return {std::fmin(a.x, b.x), std::fmin(a.y, b.y), std::fmin(a.z, b.z)}; }
-Vec3d most(Vec3d a, Vec3d b) { return {std::fmax(a.x, b.x), std::fmax(a.y, b.y), std::fmax(a.z, b.z)}; }
+// Not fmin and fmax: calls, which took half the time of a search.
+double least(double a, double b) { return b < a ? b : a; }
+double most(double a, double b) { return b > a ? b : a; }
+Vec3d least(Vec3d a, Vec3d b) { return {least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)}; }
+Vec3d most(Vec3d a, Vec3d b) { return {most(a.x, b.x), most(a.y, b.y), most(a.z, b.z)}; }
 double part(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 struct HalfEdge {

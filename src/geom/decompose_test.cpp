@@ -8,6 +8,7 @@
 #include <random>
 
 #include "geom/decompose_cases.h"
+#include "geom/decompose_measure.h"
 #include "geom/hull_math.h"
 
 namespace avbd {
@@ -200,6 +201,73 @@ TEST(Decompose, fewHullsSayWhatTheyCost) {
   const Decomposition four = decompose(def);
   EXPECT_LE(four.hulls.size(), 4u);
   EXPECT_LT(four.error, one.error);
+}
+
+/// What cannot be told apart within the resolution is not looked for without end.
+TEST(Decompose, aTinyErrorTakesNoLonger) {
+  const TestMesh box = boxMesh({0.5f, 0.5f, 0.5f}), ell = lMesh();
+  for (float maxError : {1e-5f, 1e-40f}) {
+    DecomposeDef def = defOf(box);
+    def.resolution = 64;
+    def.maxError = maxError;
+    const Decomposition one = decompose(def);
+    EXPECT_EQ(one.hulls.size(), 1u) << maxError;
+    EXPECT_LT(one.errorFound, 1e-6) << maxError;
+    EXPECT_LE(one.error, 0.5f / 64) << maxError;
+    def.vertices = ell.vertices;
+    def.triangles = ell.triangles;
+    const Decomposition two = decompose(def);
+    EXPECT_EQ(two.hulls.size(), 2u) << maxError;
+    EXPECT_LT(two.errorFound, 1e-6) << maxError;
+  }
+}
+
+TEST(Decompose, aThousandShells) {
+  TestMesh mesh;
+  const TestMesh bolt = boxMesh({0.2f, 0.15f, 0.3f});
+  for (int i = 0; i < 1000; ++i)
+    mesh.add(bolt, {static_cast<float>(i % 10), static_cast<float>(i / 10 % 10), static_cast<float>(i / 100)});
+  DecomposeDef def = defOf(mesh);
+  def.resolution = 64;
+  def.maxHulls = 1024;
+  const Decomposition all = decompose(def);
+  EXPECT_EQ(all.hulls.size(), 1000u);
+  EXPECT_LT(all.errorFound, 1e-6);
+  def.maxHulls = 32;
+  const Decomposition few = decompose(def);
+  EXPECT_LE(few.hulls.size(), 32u);
+  EXPECT_GT(few.errorFound, 0.2);
+  EXPECT_LE(few.errorFound, few.error);
+}
+
+/// A unit cube, and hulls that leave known parts of it out.
+TEST(Decompose, whatHullsLeaveOutIsMeasured) {
+  const TestMesh mesh = boxMesh({0.5f, 0.5f, 0.5f});
+  const ClosedSurface surface(mesh.vertices, mesh.triangles);
+  const VoxelGrid grid(surface, 32, false);
+  const Solid3 solid{surface, grid};
+  using Hulls = std::vector<std::shared_ptr<const HullData>>;
+  const auto boxHull = [](Vec3 low, Vec3 high) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 8; ++i)
+      points.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+    return makeHull({.points = points});
+  };
+  const auto expectLeft = [&](const Hulls& hulls, double wanted) {
+    const Reach left = leftOutside(hulls, solid, 0, 0.01);
+    EXPECT_LE(left.found, wanted + 1e-6);
+    EXPECT_GE(left.bound, wanted - 1e-6);
+    EXPECT_LE(left.bound, left.found + 0.010001);
+    EXPECT_EQ(leftOutside(hulls, solid, wanted + 0.02, 0.01).bound, wanted + 0.02);
+  };
+  const Vec3 low{-0.5f, -0.5f, -0.5f}, high{0.5f, 0.5f, 0.5f};
+  expectLeft({boxHull(low, high)}, 0);
+  expectLeft({boxHull(low, {0.3f, 0.5f, 0.5f})}, 0.2);
+  // A gap in the middle, and one corner of an eighth: its own corner is farthest from the three other sides.
+  expectLeft({boxHull(low, {-0.1f, 0.5f, 0.5f}), boxHull({0.1f, -0.5f, -0.5f}, high)}, 0.1);
+  expectLeft({boxHull(low, {0, 0.5f, 0.5f}), boxHull({0, -0.5f, -0.5f}, {0.5f, 0, 0.5f}),
+              boxHull({0, 0, -0.5f}, {0.5f, 0.5f, 0})},
+             0.5);
 }
 
 TEST(Decompose, sameResultFromAnotherOrder) {

@@ -205,6 +205,20 @@ MergedFaces facesOf(Vertices& vertices, double tolerance) {
   return mergeFaces(vertices.positions(), vertices.triangles(), 0);
 }
 
+/// The points in an order that only their places give. Of those that the grid does not tell apart the least: which one
+/// stands for them does not depend on who came first either.
+std::vector<Vec3> distinct(std::span<const Vec3> points, const HullGrid& grid) {
+  std::vector<Vec3> sorted(points.begin(), points.end());
+  std::sort(sorted.begin(), sorted.end(), [&](const Vec3& a, const Vec3& b) {
+    const Vec3d ga = grid.toGrid(toDouble(a)), gb = grid.toGrid(toDouble(b));
+    if (lexLess(ga, gb) || lexLess(gb, ga)) return lexLess(ga, gb);
+    return lexLess(toDouble(a), toDouble(b));
+  });
+  const auto same = [&](const Vec3& a, const Vec3& b) { return grid.toGrid(toDouble(a)) == grid.toGrid(toDouble(b)); };
+  sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
+  return sorted;
+}
+
 }  // namespace
 
 std::shared_ptr<const HullData> makeHull(const HullDef& def) {
@@ -214,11 +228,12 @@ std::shared_ptr<const HullData> makeHull(const HullDef& def) {
   const HullGrid grid(bounds.lower, bounds.upper);
   const double tolerance = grid.toGrid(std::fmax(asked, kLeastTolerance * extent));
 
+  const std::vector<Vec3> given = distinct(def.points, grid);
   std::vector<Vec3d> points;
-  points.reserve(def.points.size());
-  for (const Vec3& p : def.points) points.push_back(grid.toGrid(toDouble(p)));
+  points.reserve(given.size());
+  for (const Vec3& p : given) points.push_back(grid.toGrid(toDouble(p)));
   ExactHull hull(points);
-  refuseFlat(hull.begin(tolerance), points.size(), asked);
+  refuseFlat(hull.begin(tolerance), def.points.size(), asked);
   hull.grow(tolerance / 2, def.maxVertices + def.maxVertices / 2);
 
   // Vertices in an order that only their places give.
@@ -235,7 +250,7 @@ std::shared_ptr<const HullData> makeHull(const HullDef& def) {
   HullParts parts;
   parts.loops = faces.loops;
   // Adding 0 turns -0 into 0.
-  for (uint32_t i : vertices.set()) parts.vertices.push_back(def.points[chosen[i]] + Vec3{0, 0, 0});
+  for (uint32_t i : vertices.set()) parts.vertices.push_back(given[chosen[i]] + Vec3{0, 0, 0});
 
   std::vector<ExactHull::Triangle> triangles = vertices.triangles();
   for (auto& t : triangles) {

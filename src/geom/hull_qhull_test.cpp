@@ -1,14 +1,14 @@
 // Hulls against qhull: the same vertices where points are in general position, the same volume everywhere.
+#include <gtest/gtest.h>
+
 #if __has_include(<libqhull_r/qhull_ra.h>) && defined(AVBD_QHULL)
 
-#include "geom/hull_qhull.h"
-
 #include <avbd/hull.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "geom/hull_cases.h"
+#include "geom/hull_qhull.h"
 
 namespace avbd {
 namespace {
@@ -53,5 +53,9 @@ TEST(HullQhull, sameVolumeOfEveryCloudAndSize) {
 
 }  // namespace
 }  // namespace avbd
+
+#else
+
+TEST(HullQhull, skipped) { GTEST_SKIP() << "built without qhull (libqhull-dev)"; }
 
 #endif

@@ -20,9 +20,14 @@ uint64_t mixed(uint64_t x) {
 /// Finds vertices near a point: those kept so far, in lists by cell.
 class WeldGrid {
  public:
-  WeldGrid(size_t vertices, double distance) : distance_(distance) {
+  WeldGrid(std::span<const Vec3> vertices, double distance) : distance_(distance) {
+    double farthest = 0;
+    for (const Vec3 v : vertices)
+      farthest = std::max({farthest, std::fabs(double{v.x}), std::fabs(double{v.y}), std::fabs(double{v.z})});
+    // Cells as wide as the distance, or wider where a double could not count them. To find equal vertices any do.
+    cell_ = std::max(distance > 0 ? distance : kAnyCell, farthest * kFinestCell);
     size_t size = 16;
-    while (size < vertices * 2) size *= 2;
+    while (size < vertices.size() * 2) size *= 2;
     heads_.assign(size, kEnd);
   }
 
@@ -47,11 +52,10 @@ class WeldGrid {
 
  private:
   static constexpr uint32_t kEnd = 0xffffffffu;
+  static constexpr double kAnyCell = 1.0 / 1048576;                 // [m]
+  static constexpr double kFinestCell = 1.0 / (uint64_t{1} << 50);  // parts of the farthest coordinate
 
-  int64_t cellOf(float x) const {
-    if (distance_ > 0) return static_cast<int64_t>(std::floor(x / distance_));
-    return static_cast<int64_t>(std::floor(double{x} * 1048576));  // any cells do: only equal ones are merged
-  }
+  int64_t cellOf(float x) const { return static_cast<int64_t>(std::floor(x / cell_)); }
   size_t slot(int64_t x, int64_t y, int64_t z) const {
     const uint64_t h =
         mixed(mixed(mixed(static_cast<uint64_t>(x)) + static_cast<uint64_t>(y)) + static_cast<uint64_t>(z));
@@ -66,7 +70,7 @@ class WeldGrid {
     return found;
   }
 
-  double distance_;
+  double distance_, cell_;
   std::vector<uint32_t> heads_, next_;
 };
 
@@ -151,7 +155,7 @@ void linkEdge(MeshData::Parts& parts, uint32_t a, uint32_t b) {
 }  // namespace
 
 void weldVertices(const MeshDef& def, MeshData::Parts& parts) {
-  WeldGrid grid(def.vertices.size(), def.weldDistance);
+  WeldGrid grid(def.vertices, def.weldDistance);
   std::vector<uint32_t> to(def.vertices.size());
   for (size_t i = 0; i < to.size(); ++i) to[i] = grid.add(def.vertices[i], parts.vertices);
   parts.triangles.resize(def.triangles.size());

@@ -48,6 +48,17 @@ TEST(Mesh, weldsEqualVerticesAndWithADistanceNearOnes) {
   EXPECT_EQ(reportOf(soup, two, 0.002f).boundaryEdges, 4u);
 }
 
+TEST(Mesh, weldsWithDistancesFarBelowTheCoordinates) {
+  // At the origin floats lie that close; elsewhere only equal vertices do.
+  const std::vector<Vec3> soup = {{0, 0, 0},      {0, 0, 1e6f},    {1e6f, 0, 1e6f},
+                                  {5e-21f, 0, 0}, {1e6f, 0, 1e6f}, {1e6f, 0, 0}};
+  const Triangles two = {{0, 1, 2}, {3, 4, 5}};
+  EXPECT_EQ(reportOf(soup, two, 1e-20f).boundaryEdges, 4u);
+  EXPECT_EQ(reportOf(soup, two, 1e-21f).boundaryEdges, 6u);
+  EXPECT_EQ(reportOf(soup, two, 1e-45f).boundaryEdges, 6u);
+  EXPECT_EQ(reportOf(kCorners, kSquare, 1e-20f).boundaryEdges, 4u);
+}
+
 TEST(Mesh, dropsAndCountsWhatHasNoAreaOrIsThereTwice) {
   std::vector<Vec3> vertices = kCorners;
   vertices.push_back({0.5f, 0, 0.5f});  // on the diagonal

@@ -7,13 +7,10 @@
 #include <span>
 
 #include "geom/hull_math.h"
+#include "geom/sym_mat3d.h"
 
 namespace avbd {
 
-/// Symmetric 3x3 matrix in double.
-struct SymMat3d {
-  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
-};
 /// total += scale * v v^T
 void addOuter(SymMat3d& total, Vec3d v, double scale);
 /// total += scale * (a b^T + b a^T)

@@ -27,7 +27,7 @@ Stepper::~Stepper() = default;
 namespace {
 
 void substep(WorldData& world, StepData& step) {
-  if (world.contactHook && step.substep == 0) rememberPairs(world, step);
+  if (world.contactHook && world.hookedShapes > 0 && step.substep == 0) rememberPairs(world, step);
   run(Stage::Pairs, findPairs, world, step);
   run(Stage::Contacts, findContacts, world, step);
   run(Stage::Islands, findIslands, world, step);
@@ -46,7 +46,10 @@ void forgetForces(WorldData& world) {
 
 void restore(WorldData& world, StepData& step) {
   if (step.substep > 0) world.bodies = step.bodiesBefore;
-  if (step.pairsKept) restorePairs(world, step);
+  if (step.pairsKept)
+    restorePairs(world, step);
+  else
+    forgetTouches(world, step);
 }
 
 }  // namespace
@@ -61,11 +64,7 @@ void Stepper::step(WorldData& world, float dt) {
   for (step.substep = 0; step.substep < world.def.substeps; ++step.substep) {
     try {
       substep(world, step);
-    } catch (const NonFiniteError&) {
-      restore(world, step);
-      forgetForces(world);
-      throw;
-    } catch (const Error&) {  // of the contact hook's answer
+    } catch (...) {  // NonFiniteError, or an Error for what the contact hook answered
       restore(world, step);
       throw;
     }

@@ -16,11 +16,18 @@ Vec3 lengthen(Vec3 bound, Vec3 motion, bool upper) {
   return {grow(bound.x, motion.x), grow(bound.y, motion.y), grow(bound.z, motion.z)};
 }
 
+/// How far turning takes a point of the body at most. Dynamic bodies are small, and give way; a kinematic one may be a
+/// door of triangles, which pushes only what it finds in time.
+float turningReach(const BodyData& body, float h) {
+  if (body.type != BodyType::Kinematic) return 0;
+  return std::min(length(body.angularVelocity) * h, 2.0f) * body.radius;
+}
+
 /// Bounds of a shape now and at the end of the step at its present velocity.
 Aabb sweptBounds(const BodyData& body, const ShapeData& shape, float h, float margin) {
   const Pose mass{body.position, body.rotation};
   const Pose pose{mass.position + rotate(mass.rotation, shape.toMass.p), mass.rotation * shape.toMass.q};
-  Aabb box = bounds(shape.geom, pose, margin);
+  Aabb box = bounds(shape.geom, pose, margin + turningReach(body, h));
   const Vec3 motion = body.linearVelocity * h;
   box.lower = lengthen(box.lower, motion, false);
   box.upper = lengthen(box.upper, motion, true);
@@ -75,7 +82,7 @@ void mergePairs(WorldData& world, StepData& step) {
     if (boundsOverlap(world, pair.shapeA, pair.shapeB))
       merged.push_back(pair);
     else
-      loseTouch(world, pair);
+      loseTouch(world, pair, step.substep > 0);
   }
   for (; next < step.newKeys.size(); ++next) merged.push_back(newPair(world, step.newKeys[next]));
   world.pairs.swap(merged);

@@ -26,16 +26,18 @@ namespace {
 void findManifold(const WorldData& world, const StepData& step, PairData& pair) {
   const ShapeData &shapeA = world.shapes[pair.shapeA], &shapeB = world.shapes[pair.shapeB];
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
-  pair.origin = a.position;
+  Manifold manifold;
   collide(shapeA.geom, nearPose(a, shapeA, a.position), shapeB.geom, nearPose(b, shapeB, a.position),
-          speculativeMargin(world, a, b, step.h), pair.manifold);
-  if (pair.manifold.count == 0) {
-    forgetContact(pair);
+          speculativeMargin(world, a, b, step.h), manifold);
+  if (manifold.count == 0) {
+    forgetContact(step, pair);
     return;
   }
+  pair.origin = a.position;
+  pair.manifold = manifold;
   combineMaterials(pair, shapeA.material, shapeB.material);
   const bool begins = pair.pointCount == 0;
-  rememberPoints(world, pair);
+  rememberPoints(world, step, pair);
   if (begins) beginSlide(world, step, pair, {});
 }
 
@@ -67,7 +69,7 @@ void findContacts(WorldData& world, StepData& step) {
   for (size_t i = 0, end; i < world.pairs.size(); i = end) {
     PairData& pair = world.pairs[i];
     end = i + 1;
-    if (step.substep == 0) pair.touching = false;
+    if (step.substep == 0) pair.touching = pair.touchBegins = false;
     if (pair.isTrigger)
       pair.touching = pair.touching || overlaps(world, step, pair);
     else if (pair.hasSurface)

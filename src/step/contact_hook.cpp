@@ -89,7 +89,7 @@ void askHook(WorldData& world, StepData& step) {
     if (!accepted) {
       --world.report.contacts;
       world.report.points -= static_cast<uint32_t>(pair.pointCount);
-      forgetContact(pair);
+      forgetContact(step, pair);
       step.touchChanges.push_back(pair.key());
       continue;
     }
@@ -100,7 +100,6 @@ void askHook(WorldData& world, StepData& step) {
 
 void rememberPairs(const WorldData& world, StepData& step) {
   step.pairsBefore = world.pairs;
-  step.lostBefore = world.lostTouches.size();
   step.pairsKept = true;
 }
 

@@ -55,7 +55,20 @@ void rememberTurning(PairData& pair, const ContactBasis* known) {
 
 }  // namespace
 
-void rememberPoints(const WorldData& world, PairData& pair, const KnownPoint* known) {
+void inheritForce(PairData& pair, const OldPoint& gone) {
+  if (gone.memory.mean == Vec3{} || dot(gone.basis.normal, pair.normal) <= kSameNormal) return;
+  PointMemory* nearest = nullptr;
+  float best = 0;
+  for (int i = 0; i < pair.pointCount; ++i) {
+    const Vec3 gap = gone.memory.anchorA - pair.points[i].anchorA;
+    if (nearest && dot(gap, gap) >= best) continue;
+    nearest = &pair.points[i];
+    best = dot(gap, gap);
+  }
+  if (nearest) nearest->mean = nearest->mean + toBasis(pair, gone.basis, gone.memory.mean);
+}
+
+void rememberPoints(const WorldData& world, const StepData& step, PairData& pair, const KnownPoint* known) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   const Vec3 fromAToB = toFloat(b.position - a.position);
   const float drift = kAnchorDrift * smallerSize(a, b);
@@ -69,6 +82,7 @@ void rememberPoints(const WorldData& world, PairData& pair, const KnownPoint* kn
     PointMemory& point = pair.points[i];
     point = old ? *old : PointMemory{};
     if (old) point.lambda = toBasis(pair, *basis, old->lambda);
+    point.mean = old && step.substep > 0 ? toBasis(pair, *basis, old->mean) : Vec3{};
     const Vec3 driftA = onA - point.anchorA, driftB = onB - point.anchorB;
     const bool rolled = dot(driftA, driftA) > drift * drift || dot(driftB, driftB) > drift * drift;
     if (!old || !point.sticks || rolled) point.anchorA = onA, point.anchorB = onB;
@@ -78,19 +92,25 @@ void rememberPoints(const WorldData& world, PairData& pair, const KnownPoint* kn
   }
   rememberTurning(pair, any);
   pair.pointCount = pair.manifold.count;
+  pair.gonePoints = 0;
 }
 
-void rememberPoints(const WorldData& world, PairData& pair) {
+void rememberPoints(const WorldData& world, const StepData& step, PairData& pair) {
   const ContactBasis basis{pair.normal, pair.t1, pair.t2};
   PointMemory before[kMaxManifoldPoints];
-  for (int i = 0; i < pair.pointCount; ++i) before[i] = pair.points[i];
+  const int count = pair.pointCount + pair.gonePoints;
+  for (int i = 0; i < count; ++i) before[i] = pair.points[i];
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   int match[kMaxManifoldPoints];
   matchPoints(pair, a, kNearPoint * smallerSize(a, b), match);
   KnownPoint known[kMaxManifoldPoints];
   for (int i = 0; i < pair.manifold.count; ++i)
     if (match[i] >= 0) known[i] = {&before[match[i]], &basis};
-  rememberPoints(world, pair, known);
+  rememberPoints(world, step, pair, known);
+  if (step.substep == 0) return;
+  for (int j = 0; j < count; ++j)
+    if (std::find(match, match + pair.manifold.count, j) == match + pair.manifold.count)
+      inheritForce(pair, {before[j], basis});
 }
 
 /// Fast enough along the surface that friction cannot hold it within the step.
@@ -104,7 +124,10 @@ void beginSlide(const WorldData& world, const StepData& step, PairData& pair, Ve
   pair.landedSliding = length(slip) > pair.staticFriction * length(world.def.gravity) * step.h;
 }
 
-void forgetContact(PairData& pair) {
+void forgetContact(const StepData& step, PairData& pair) {
+  if (step.substep == 0) pair.gonePoints = 0;
+  for (int i = 0; step.substep > 0 && i < pair.pointCount; ++i)
+    if (pair.points[i].mean != Vec3{}) pair.gonePoints = pair.pointCount;
   pair.manifold.count = 0;
   pair.pointCount = 0;
   pair.slides = 0;

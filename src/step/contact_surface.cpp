@@ -40,18 +40,20 @@ class Run {
       const uint32_t patch = step_.patchOf[entry];
       if (entry >= size_) step_.overflow.push_back(newEntry(head_, static_cast<uint16_t>(entry)));
       PairData& pair = entry < size_ ? world_.pairs[begin_ + entry] : step_.overflow.back();
-      patch != kNone ? fillEntry(pair, patch) : forgetContact(pair);
+      patch != kNone ? fillEntry(pair, patch) : closeEntry(pair);
     }
+    if (step_.substep > 0) inheritForces();
   }
 
  private:
   const BodyData& a() const { return world_.bodies[head_.bodyA]; }
   const BodyData& b() const { return world_.bodies[head_.bodyB]; }
 
-  static PairData newEntry(const PairData& head, uint16_t patch) {
+  PairData newEntry(const PairData& head, uint16_t patch) const {
     PairData pair = head;
-    forgetContact(pair);
-    pair.touching = pair.wasTouching = false;
+    forgetContact(step_, pair);
+    pair.gonePoints = 0;
+    pair.touching = pair.wasTouching = pair.touchBegins = false;
     pair.patch = patch;
     return pair;
   }
@@ -144,8 +146,7 @@ class Run {
     const SurfacePatch& patch = step_.patches[p];
     const ShapeData &shapeA = world_.shapes[pair.shapeA], &shapeB = world_.shapes[pair.shapeB];
     const ShapeData& surface = surfaceIsA_ ? shapeA : shapeB;
-    const Material& own =
-        patch.material < surface.materials.size() ? surface.materials[patch.material] : surface.material;
+    const Material& own = surface.materials.empty() ? surface.material : surface.materials[patch.material];
     pair.origin = a().position;
     pair.manifold = patch.manifold;
     pair.element = patch.element;
@@ -157,8 +158,19 @@ class Run {
       const uint32_t match = step_.match[p * kMaxManifoldPoints + k];
       if (match != kNone) known[k] = {&step_.oldPoints[match].memory, &step_.oldPoints[match].basis};
     }
-    rememberPoints(world_, pair, known);
+    rememberPoints(world_, step_, pair, known);
     if (!step_.continues[p]) beginSlide(world_, step_, pair, {});
+  }
+
+  /// Where others go on, its manifold is not the latest any more.
+  void closeEntry(PairData& pair) const {
+    forgetContact(step_, pair);
+    if (!step_.patches.empty()) pair.manifold.normal = {};
+  }
+
+  void inheritForces() {
+    for (uint32_t j = 0; j < step_.oldPoints.size(); ++j)
+      if (!step_.oldTaken[j]) inheritForce(world_.pairs[begin_ + step_.oldEntry[j]], step_.oldPoints[j]);
   }
 
   WorldData& world_;
@@ -171,8 +183,6 @@ class Run {
 }  // namespace
 
 void findPatches(WorldData& world, StepData& step, size_t begin, size_t end) {
-  if (step.substep == 0)
-    for (size_t i = begin; i < end; ++i) world.pairs[i].touching = false;
   Run run(world, step, begin, end);
   run.collide();
   run.fill();

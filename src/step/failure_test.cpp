@@ -80,6 +80,20 @@ TEST_F(Overflow, StepStopsNamesTheBodyAndChangesNothing) {
   EXPECT_TRUE(stateOf(world) == before);
 }
 
+TEST_F(Overflow, GivenForcesAreKeptUntilTheyAreCleared) {
+  World calm;
+  fill(calm);
+  world.addForce(feather, {1e18f, 0, 0});
+  world.addForce(box, {100, 0, 0});
+  EXPECT_THROW(world.step(kDt), NonFiniteError);
+  EXPECT_THROW(world.step(kDt), NonFiniteError);
+  world.clearForces();
+  world.addForce(box, {100, 0, 0});
+  calm.addForce(box, {100, 0, 0});
+  for (int i = 0; i < 10; ++i) world.step(kDt), calm.step(kDt);
+  EXPECT_EQ(world.pose(box), calm.pose(box));
+}
+
 TEST_F(Overflow, TheWorldGoesOnWithoutTheBody) {
   World calm;
   fill(calm);

@@ -275,5 +275,51 @@ TEST(Refusal, NamesTheFieldAndChangesNothing) {
     }
 }
 
+TEST(Refusal, KeepsTheForcesThatWereGiven) {
+  World world, twin;
+  BodyId box[2];
+  bool bad = true;
+  for (World* w : {&world, &twin}) {
+    addGround(*w);
+    box[w == &twin] = addHooked(*w, BodyDef{.position = {0, 0.5, 0}}, Box{}, {.friction = 0});
+    w->setContactHook([&, w](ContactPlan& plan) {
+      if (w == &world && bad) plan.friction = -1;
+      return true;
+    });
+    w->addForce(box[w == &twin], {100, 0, 0});
+  }
+  EXPECT_THROW(world.step(kDt), Error);
+  bad = false;
+  world.step(kDt), twin.step(kDt);
+  EXPECT_GT(world.velocity(box[0]).linear.x, 0);
+  EXPECT_EQ(world.hash(), twin.hash());
+}
+
+TEST(Hook, AShapeMayAskForItLater) {
+  World world;
+  addGround(world);
+  const BodyId box = world.create(BodyDef{.position = {0, 0.5, 0}, .shape = Box{}});
+  const ShapeId shape = world.shapes(box)[0];
+  int calls = 0;
+  bool bad = false;
+  world.setContactHook([&](ContactPlan& plan) {
+    if (bad) plan.friction = -1;
+    return ++calls > 0;
+  });
+  world.step(kDt);
+  EXPECT_EQ(calls, 0);
+  world.setContactHook(shape, true);
+  EXPECT_TRUE(world.contactHook(shape));
+  world.step(kDt);
+  EXPECT_EQ(calls, 1);
+  const uint64_t hash = world.hash();
+  bad = true;
+  EXPECT_THROW(world.step(kDt), Error);
+  EXPECT_EQ(world.hash(), hash);
+  world.setContactHook(shape, false);
+  world.step(kDt);
+  EXPECT_EQ(calls, 2);
+}
+
 }  // namespace
 }  // namespace avbd

@@ -33,6 +33,50 @@ void noteHit(const WorldData& world, StepData& step, const PairData& pair, const
   if (hit.event.impulse > 0) step.hits.push_back(hit);
 }
 
+/// For the begin of a touch, if this step makes one.
+void noteTouch(StepData& step, const PairData& pair, const PointForces& forces) {
+  TouchRecord touch;
+  touch.key = pair.key();
+  touch.order = static_cast<uint32_t>(step.touches.size());
+  touch.normal = pair.normal;
+  float most = 0;
+  for (int i = 0; i < pair.pointCount; ++i) {
+    const float force = forces[static_cast<size_t>(i)];
+    touch.impulse += force * step.h;
+    if (force <= most) continue;
+    most = force;
+    touch.position = pair.origin + pair.manifold.points[i].position;
+  }
+  step.touches.push_back(touch);
+}
+
+/// One record for each pair, with the place of the patch and substep that pushed most.
+void mergeTouches(std::vector<TouchRecord>& touches) {
+  std::sort(touches.begin(), touches.end(), [](const TouchRecord& x, const TouchRecord& y) {
+    return std::tie(x.key, x.order) < std::tie(y.key, y.order);
+  });
+  size_t size = 0;
+  for (size_t i = 0; i < touches.size(); ++size) {
+    TouchRecord touch = touches[i];
+    float most = touch.impulse;
+    for (++i; i < touches.size() && touches[i].key == touch.key; ++i) {
+      const float impulse = touch.impulse + touches[i].impulse;
+      if (touches[i].impulse > most) touch = touches[i], most = touch.impulse;
+      touch.impulse = impulse;
+    }
+    touches[size] = touch;
+  }
+  touches.resize(size);
+}
+
+/// What the merged records say of a pair that began to touch in this step.
+const TouchRecord& touchOf(const StepData& step, uint64_t key) {
+  const auto at = std::lower_bound(step.touches.begin(), step.touches.end(), key,
+                                   [](const TouchRecord& touch, uint64_t k) { return touch.key < k; });
+  AVBD_ASSERT(at != step.touches.end() && at->key == key);
+  return *at;
+}
+
 /// One event for each pair, with the place of its fastest point.
 void publishHits(WorldData& world, StepData& step) {
   std::vector<HitEvent>& hits = world.events.hits;
@@ -51,37 +95,92 @@ void publishHits(WorldData& world, StepData& step) {
   }
 }
 
-void addTouch(Events& events, const ShapeId (&shape)[2], const BodyId (&body)[2], bool begins) {
-  (begins ? events.begins : events.ends).push_back({shape[0], shape[1], body[0], body[1]});
-}
-
-void addVisit(Events& events, const ShapeId (&shape)[2], const BodyId (&body)[2], bool triggerIsA, bool enters) {
+TriggerEvent visitOf(const ShapeId (&shape)[2], const BodyId (&body)[2], bool triggerIsA) {
   const int trigger = triggerIsA ? 0 : 1, visitor = 1 - trigger;
-  (enters ? events.enters : events.leaves).push_back({shape[trigger], shape[visitor], body[trigger], body[visitor]});
+  return {shape[trigger], shape[visitor], body[trigger], body[visitor]};
 }
 
-void addChange(Events& events, const PairData& pair) {
-  const ShapeId shape[2] = {pair.shapeId(0), pair.shapeId(1)};
-  const BodyId body[2] = {pair.bodyId(0), pair.bodyId(1)};
-  if (pair.isTrigger)
-    addVisit(events, shape, body, pair.triggerIsA, pair.touching);
-  else
-    addTouch(events, shape, body, pair.touching);
+/// A pair of the list whose touching has changed.
+void addChange(WorldData& world, const StepData& step, const PairData& pair) {
+  Events& events = world.events;
+  if (pair.isTrigger) {
+    const ShapeId shape[2] = {pair.shapeId(0), pair.shapeId(1)};
+    const BodyId body[2] = {pair.bodyId(0), pair.bodyId(1)};
+    (pair.touching ? events.enters : events.leaves).push_back(visitOf(shape, body, pair.triggerIsA));
+    return;
+  }
+  TouchEvent event{pair.shapeId(0), pair.shapeId(1), pair.bodyId(0), pair.bodyId(1), {}, {}, 0};
+  if (pair.touching) {
+    const TouchRecord& touch = touchOf(step, pair.key());
+    event.position = touch.position, event.normal = touch.normal, event.impulse = touch.impulse;
+  } else {
+    const TouchPlace place = lastPlace(world, pair);
+    event.position = place.position, event.normal = place.normal;
+  }
+  (pair.touching ? events.begins : events.ends).push_back(event);
+}
+
+uint64_t keyOf(const LostTouch& lost) { return uint64_t(lost.shape[0].index - 1) << 32 | (lost.shape[1].index - 1); }
+
+/// A pair that is gone for good: the end, and if nobody knows of it yet, the begin.
+void addLost(Events& events, const StepData& step, const LostTouch& lost) {
+  if (lost.isTrigger) {
+    const TriggerEvent visit = visitOf(lost.shape, lost.body, lost.triggerIsA);
+    if (!lost.wasTouching) events.enters.push_back(visit);
+    events.leaves.push_back(visit);
+    return;
+  }
+  if (!lost.reports) return;
+  TouchEvent event{lost.shape[0], lost.shape[1], lost.body[0], lost.body[1], lost.position, lost.normal, 0};
+  if (!lost.wasTouching) {
+    const TouchRecord& touch = touchOf(step, keyOf(lost));
+    event.impulse = touch.impulse;
+    events.begins.push_back(event);
+    events.begins.back().position = touch.position, events.begins.back().normal = touch.normal;
+  }
+  events.ends.push_back(event);
+}
+
+/// A pair may have left the list more than once.
+void mergeLost(std::vector<LostTouch>& all) {
+  const auto before = [](const LostTouch& x, const LostTouch& y) {
+    return std::tie(x.shape[0], x.shape[1]) < std::tie(y.shape[0], y.shape[1]);
+  };
+  // Stable, without memory, and quick for what is nearly in order.
+  for (auto at = all.begin(); at != all.end(); ++at)
+    std::rotate(std::upper_bound(all.begin(), at, *at, before), at, at + 1);
+  size_t size = 0;
+  for (size_t i = 0; i < all.size(); ++size) {
+    LostTouch lost = all[i];
+    for (++i; i < all.size() && all[i].shape[0] == lost.shape[0] && all[i].shape[1] == lost.shape[1]; ++i) {
+      const bool wasTouching = lost.wasTouching, touched = lost.touched;
+      lost = all[i];
+      lost.wasTouching = lost.wasTouching || wasTouching;
+      lost.touched = lost.touched || touched;
+    }
+    all[size] = lost;
+  }
+  all.resize(size);
 }
 
 /// What left the list and is there again went on all the time; for the rest it is the end.
 void publishLost(WorldData& world, StepData& step) {
-  for (const LostTouch& lost : world.lostTouches) {
-    const uint64_t key = uint64_t(lost.shape[0].index - 1) << 32 | (lost.shape[1].index - 1);
-    PairData* pair = findPair(world, key);
-    if (pair && pair->shapeId(0) == lost.shape[0] && pair->shapeId(1) == lost.shape[1])
-      pair->wasTouching = true, step.touchChanges.push_back(key);
-    else if (lost.isTrigger)
-      addVisit(world.events, lost.shape, lost.body, lost.triggerIsA, false);
-    else if (lost.reports)
-      addTouch(world.events, lost.shape, lost.body, false);
+  std::vector<LostTouch>& all = world.lostTouches;
+  for (const LostTouch& lost : all)
+    if (lost.unwanted) addLost(world.events, step, lost);
+  std::erase_if(all, [](const LostTouch& lost) { return lost.unwanted; });
+  mergeLost(all);
+  for (const LostTouch& lost : all) {
+    PairData* pair = findPair(world, keyOf(lost));
+    if (!pair || pair->shapeId(0) != lost.shape[0] || pair->shapeId(1) != lost.shape[1]) {
+      addLost(world.events, step, lost);
+      continue;
+    }
+    pair->wasTouching = pair->wasTouching || lost.wasTouching;
+    pair->touching = pair->touching || lost.touched;
+    step.touchChanges.push_back(pair->key());
   }
-  world.lostTouches.clear();
+  all.clear();
 }
 
 template <class Event, class Ids>
@@ -101,7 +200,10 @@ void publishMoves(WorldData& world, const StepData& step) {
 }  // namespace
 
 void beginEvents(const WorldData& world, StepData& step) {
+  step.lostBefore = world.lostTouches.size();
   step.hits.clear();
+  step.touches.clear();
+  step.touches.reserve(world.pairs.size());
   step.touchChanges.clear();
   step.touchChanges.reserve(2 * world.pairs.size());
   if (!world.def.moveEvents) return;
@@ -118,6 +220,7 @@ void noteContact(WorldData& world, StepData& step, uint32_t index, const PointFo
   if (touches != head.wasTouching) step.touchChanges.push_back(pair.key());
   if (!touches) return;
   head.touching = true;
+  if (!head.wasTouching) noteTouch(step, pair, forces);
   if (pair.wantsHits) noteHit(world, step, pair, forces);
 }
 
@@ -125,12 +228,14 @@ void publishEvents(WorldData& world, StepData& step) {
   Events& events = world.events;
   events.begins.clear(), events.ends.clear(), events.enters.clear(), events.leaves.clear();
   events.hits.clear(), events.moves.clear();
+  mergeTouches(step.touches);
   publishLost(world, step);
   for (const uint64_t key : step.touchChanges) {
     PairData* pair = findPair(world, key);
     if (!pair || pair->touching == pair->wasTouching) continue;
-    if (pair->reports) addChange(events, *pair);
+    if (pair->reports) addChange(world, step, *pair);
     pair->wasTouching = pair->touching;
+    pair->touchBegins = pair->touching;
   }
   const auto shapes = [](const TouchEvent& e) { return std::tie(e.shapeA, e.shapeB); };
   const auto trigger = [](const TriggerEvent& e) { return std::tie(e.trigger, e.visitor); };
@@ -138,6 +243,15 @@ void publishEvents(WorldData& world, StepData& step) {
   sortBy(events.enters, trigger), sortBy(events.leaves, trigger);
   publishHits(world, step);
   if (world.def.moveEvents) publishMoves(world, step);
+}
+
+void forgetTouches(WorldData& world, const StepData& step) {
+  for (PairData& pair : world.pairs) pair.touching = pair.wasTouching, pair.touchBegins = false;
+  size_t i = 0;
+  std::erase_if(world.lostTouches, [&](LostTouch& lost) {
+    lost.touched = false;
+    return i++ >= step.lostBefore && !lost.wasTouching;
+  });
 }
 
 }  // namespace avbd

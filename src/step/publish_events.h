@@ -5,7 +5,7 @@
 
 namespace avbd {
 
-/// Normal forces of a contact's points [N].
+/// Normal forces of a contact's points over a substep, rebounds included [N].
 using PointForces = std::array<float, kMaxManifoldPoints>;
 
 /// At the start of a step. The events of the last one stay until the end of this one.
@@ -15,5 +15,7 @@ void beginEvents(const WorldData& world, StepData& step);
 void noteContact(WorldData& world, StepData& step, uint32_t index, const PointForces& forces);
 /// At the end of a step.
 void publishEvents(WorldData& world, StepData& step);
+/// A step that fails: nothing touched in it.
+void forgetTouches(WorldData& world, const StepData& step);
 
 }  // namespace avbd

@@ -41,6 +41,7 @@ Bounce makeBounce(const WorldData& world, const StepData& step, uint32_t index, 
   const PairData& pair = world.pairs[index];
   const ContactChange& change = changeOf(step, index);
   Bounce bounce;
+  bounce.pair = index, bounce.point = i;
   bounce.scaleA = change.scaleA, bounce.scaleB = change.scaleB;
   bounce.n = pair.normal;
   bounce.armA = pair.manifold.points[i].position;

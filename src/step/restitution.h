@@ -19,7 +19,8 @@ struct Rebound {
 /// Of point i of a pair, from the velocities and free accelerations at the start of the step.
 Rebound rebound(const WorldData& world, const StepData& step, const PairData& pair, int i);
 
-/// Impulses that give every rebounding row its speed; changes step.end. Total impulses stay repulsive.
+/// Impulses that give every rebounding row its speed; changes step.end. Total impulses stay repulsive. They stay in
+/// step.bounces, contact by contact in the order of the lanes (step.contactPair, then step.fullPair).
 void applyRestitution(const WorldData& world, StepData& step);
 
 }  // namespace avbd

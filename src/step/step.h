@@ -14,7 +14,8 @@ class Stepper {
  public:
   Stepper();
   ~Stepper();
-  /// Advances `world` by dt [s]. Throws NonFiniteError before poses or velocities have changed.
+  /// Advances `world` by dt [s]. Throws NonFiniteError, or Error for an answer of the contact hook; poses, velocities
+  /// and given forces are then those from before.
   void step(WorldData& world, float dt);
 
  private:

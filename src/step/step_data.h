@@ -41,6 +41,8 @@ struct BatchRange {
 
 /// A contact row that rebounds (restitution.h).
 struct Bounce {
+  uint32_t pair = kNone;  ///< index
+  int point = 0;
   uint32_t a = kNone, b = kNone;  ///< in StepData::end; kNone where the body is not dynamic
   Vec3 n, armA, armB;
   Vec3 turnA, turnB;             ///< I^-1 (arm x n)
@@ -100,6 +102,15 @@ struct HitRecord {
   HitEvent event;
 };
 
+/// What the points of a patch did in a substep, of a pair that did not touch in the last step.
+struct TouchRecord {
+  uint64_t key = 0;  ///< of the pair
+  uint32_t order = 0;
+  Vec3d position;  ///< of the point that pushed most
+  Vec3 normal;
+  float impulse = 0;  ///< [N s] of all points
+};
+
 struct PoseBefore {
   Vec3d position;
   Quat rotation;
@@ -116,7 +127,7 @@ struct StepData {
 
   std::vector<BodyData> bodiesBefore;  ///< the whole step, where substeps may fail
   std::vector<PairData> pairsBefore;   ///< the same, where the contact hook may fail: if pairsKept
-  size_t lostBefore = 0;               ///< how many lostTouches there were then
+  size_t lostBefore = 0;               ///< how many lostTouches there were when the step began
   bool pairsKept = false;
 
   // 10_pairs
@@ -197,7 +208,8 @@ struct StepData {
 
   // 90_publish
   std::vector<uint64_t> touchChanges;   ///< keys of pairs that may have begun or ended to touch
-  std::vector<HitRecord> hits;          ///< of all substeps so far
+  std::vector<TouchRecord> touches;     ///< of all substeps so far
+  std::vector<HitRecord> hits;          ///< likewise
   std::vector<PoseBefore> posesBefore;  ///< by body slot, where moves are events
 
   BatchView view(size_t batch);

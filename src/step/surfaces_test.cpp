@@ -1,6 +1,7 @@
 // Bodies on meshes and height fields in a running world: several contacts a pair, memory across triangles, materials.
 #include <avbd/avbd.h>
 #include <avbd/height_field.h>
+#include <avbd/hull.h>
 #include <avbd/mesh.h>
 #include <gtest/gtest.h>
 
@@ -175,6 +176,104 @@ TEST(Surface, AHeightFieldCarriesToo) {
   for (int i = 0; i < 120; ++i) world.step(kDt);
   EXPECT_NEAR(world.pose(id).position.y, 0.75, 4e-3);
   EXPECT_LT(length(world.velocity(id).linear), 2e-3);
+}
+
+/// A standing quad from the origin out to x = length, that looks along -z.
+std::shared_ptr<const MeshData> makeDoor(float length, float height) {
+  const std::vector<Vec3> vertices = {{0, -height, 0}, {length, -height, 0}, {length, height, 0}, {0, height, 0}};
+  return makeMesh({.vertices = vertices, .triangles = std::vector<std::array<uint32_t, 3>>{{0, 2, 1}, {0, 3, 2}}});
+}
+
+// Its tip goes farther in a step than a ball is seen ahead of a body at rest.
+TEST(Surface, ATurningDoorOfTrianglesTakesABallAlong) {
+  for (const float spin : {1.0f, 5.0f})
+    for (int k = 0; k < 8; ++k) {
+      World world({.gravity = {}});
+      const BodyId door = world.create(
+          BodyDef{.type = BodyType::Kinematic, .angularVelocity = {0, spin, 0}, .shape = Mesh{makeDoor(2, 1)}});
+      const double at = -0.7 - 0.03 * k;  // rad: ahead of the door, which turns from x towards -z
+      const BodyId ball =
+          world.create(BodyDef{.position = {1.8 * std::cos(at), 0, 1.8 * std::sin(at)}, .shape = Sphere{0.1f}});
+      while (world.time() < 1.2f / spin) world.step(kDt);
+      const Vec3d local = rotate(conjugate(world.pose(door).rotation), world.pose(ball).position);
+      EXPECT_LT(local.z, 0) << spin << ", " << k << ": the door went through";
+      EXPECT_GT(length(world.velocity(ball).linear), 0.8f * spin) << spin << ", " << k;
+    }
+}
+
+TEST(Surface, MaterialsMayBeChangedWhileItIsUsed) {
+  World world;
+  const auto data = makeGrid(20, 0.5f, flat, [](float, float z) { return z > 0 ? 1 : 0; });
+  ShapeDef surface{.geometry = Mesh{data}};
+  surface.materials = {{.friction = 0}, {.friction = 0}};
+  const ShapeId shape = world.create(world.create(BodyDef{.type = BodyType::Static}), surface);
+  const BodyId box = world.create(BodyDef{.position = {-6, 0.2, 3},
+                                          .linearVelocity = {3, 0, 0},
+                                          .shape = Box{0.3f, 0.2f, 0.3f},
+                                          .material = {.friction = 0.5f}});
+  for (int i = 0; i < 30; ++i) world.step(kDt);
+  EXPECT_NEAR(world.velocity(box).linear.x, 3, 0.01);
+  const std::vector<Material> rough = {{.friction = 0}, {.friction = 0.5f}};
+  world.setMaterials(shape, rough);
+  EXPECT_EQ(world.materials(shape).at(1).friction, 0.5f);
+  for (int i = 0; i < 60; ++i) world.step(kDt);
+  EXPECT_LT(length(world.velocity(box).linear), 2e-3);
+  EXPECT_THROW(world.setMaterials(shape, std::vector<Material>(1)), Error);
+  EXPECT_EQ(world.materials(shape).size(), 2u);
+  world.setMaterials(shape, {});
+  EXPECT_TRUE(world.materials(shape).empty());
+}
+
+/// Heights at which a ball that sinks from 3 m enters and leaves a trigger, and whether that was all.
+struct Visit {
+  double enter = 0, leave = 0;
+  int enters = 0, leaves = 0;
+};
+Visit sinkThrough(const Geometry& trigger) {
+  World world({.gravity = {}});
+  BodyDef def{.type = BodyType::Static};
+  def.shapes.push_back({.geometry = trigger, .isTrigger = true});
+  world.create(def);
+  const BodyId ball =
+      world.create(BodyDef{.position = {0.1, 3, 0.15}, .linearVelocity = {0, -1.2f, 0}, .shape = Sphere{0.25f}});
+  Visit visit;
+  for (int i = 0; i < 300; ++i) {
+    const double at = world.pose(ball).position.y;
+    world.step(kDt);
+    if (!world.events().enters.empty()) ++visit.enters, visit.enter = at;
+    if (!world.events().leaves.empty()) ++visit.leaves, visit.leave = at;
+  }
+  return visit;
+}
+
+TEST(SurfaceTrigger, AHullIsSolid) {
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f});
+  const Visit visit = sinkThrough(Hull{makeHull({.points = corners})});
+  EXPECT_EQ(visit.enters, 1);
+  EXPECT_EQ(visit.leaves, 1);
+  EXPECT_NEAR(visit.enter, 1.25, 0.03);
+  EXPECT_NEAR(visit.leave, -1.25, 0.03);
+}
+
+TEST(SurfaceTrigger, AMeshIsItsTrianglesFromBothSides) {
+  for (const float scale : {1.0f, -1.0f}) {  // the other way the front looks down
+    const Visit visit = sinkThrough(Mesh{makeGrid(4, 0.5f, flat), {1, scale, 1}});
+    EXPECT_EQ(visit.enters, 1);
+    EXPECT_EQ(visit.leaves, 1);
+    EXPECT_NEAR(visit.enter, 0.25, 0.03);
+    EXPECT_NEAR(visit.leave, -0.25, 0.03);
+  }
+}
+
+TEST(SurfaceTrigger, AHeightFieldIsSolidToItsThickness) {
+  const std::vector<float> heights(64, 0.5f);
+  const Visit visit =
+      sinkThrough(HeightField{makeHeightField({.columns = 8, .rows = 8, .heights = heights, .thickness = 1})});
+  EXPECT_EQ(visit.enters, 1);
+  EXPECT_EQ(visit.leaves, 1);
+  EXPECT_NEAR(visit.enter, 0.75, 0.03);
+  EXPECT_NEAR(visit.leave, -0.5, 0.03);
 }
 
 TEST(Surface, MemoryMovesWithTheCentreOfMass) {

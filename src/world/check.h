@@ -3,6 +3,7 @@
 
 #include <avbd/world.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,8 @@ void checkGeometry(const Path& path, const Geometry& geometry, Range size);  ///
 /// Unbounded and hollow shapes belong to static and kinematic bodies.
 void checkMayMove(const Path& path, const Geometry& geometry, BodyType type);
 void checkMaterial(const Path& path, const Material& material);
+/// Of the triangles of a surface; none is right too.
+void checkMaterials(const Path& path, std::span<const Material> materials, const Geometry& geometry);
 /// Returns the shape with its rotation made exact.
 ShapeDef checkedShape(const Path& path, const ShapeDef& def, BodyType type, float unit);
 void checkLocks(const Path& path, uint8_t locks);

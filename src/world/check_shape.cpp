@@ -1,4 +1,6 @@
 // Shapes and their materials (check.h).
+#include "geom/height_field_parts.h"
+#include "geom/mesh_parts.h"
 #include "world/check.h"
 #include "world/limits.h"
 
@@ -104,6 +106,34 @@ void checkMaterial(const Path& path, const Material& m) {
   checkCombine(path / "restitutionCombine", m.restitutionCombine);
 }
 
+namespace {
+
+/// How many materials the triangles of a surface name.
+size_t materialsNamed(const Geometry& geometry) {
+  size_t named = 0;
+  const auto count = [&](const std::vector<uint16_t>& indices) {
+    if (indices.empty()) named = 1;
+    for (const uint16_t index : indices)
+      if (index != HeightFieldDef::kHole) named = std::max(named, size_t{index} + 1);
+  };
+  if (const Mesh* mesh = std::get_if<Mesh>(&geometry)) count(mesh->data->parts().materials);
+  if (const HeightField* field = std::get_if<HeightField>(&geometry)) count(field->data->parts().materials);
+  return named;
+}
+
+}  // namespace
+
+void checkMaterials(const Path& path, std::span<const Material> materials, const Geometry& geometry) {
+  if (materials.empty()) return;
+  if (materials.size() > 0xffff) path.refuse(toText(materials.size()) + " materials", "must be at most 65535");
+  for (size_t i = 0; i < materials.size(); ++i) checkMaterial(path[i], materials[i]);
+  const size_t named = materialsNamed(geometry);
+  if (materials.size() >= named) return;
+  path.refuse(toText(materials.size()) + " materials", "must be none or at least the " + toText(named) +
+                                                           " that the triangles of the " + geometryName(geometry) +
+                                                           " name");
+}
+
 ShapeDef checkedShape(const Path& path, const ShapeDef& def, BodyType type, float unit) {
   const Path geometry = path / "geometry";
   checkGeometry(geometry, def.geometry, unit);
@@ -112,9 +142,7 @@ ShapeDef checkedShape(const Path& path, const ShapeDef& def, BodyType type, floa
   shape.pose = checkedPose(path / "pose", def.pose, kMaxSize * unit);
   check(path / "density", def.density, notNegative(kMaxDensity));
   checkMaterial(path / "material", def.material);
-  const Path materials = path / "materials";
-  if (def.materials.size() > 0xffff) materials.refuse(toText(def.materials.size()), "must be at most 65535");
-  for (size_t i = 0; i < def.materials.size(); ++i) checkMaterial(materials[i], def.materials[i]);
+  checkMaterials(path / "materials", def.materials, def.geometry);
   return shape;
 }
 

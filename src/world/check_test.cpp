@@ -1,6 +1,8 @@
 // Every field of every definition is refused outside its range, with a message that names all four parts.
 #include "world/check.h"
 
+#include <avbd/height_field.h>
+#include <avbd/mesh.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -191,6 +193,32 @@ TEST(CheckBody, NestedShapes) {
   refuse({.material = {.friction = kNan}}, "material.friction", "nan", ">= 0");
   EXPECT_NO_THROW(checkedBody({.type = BodyType::Static, .shapes = {{.geometry = HalfSpace{}}}}, 1));
   EXPECT_NO_THROW(checkedBody({.type = BodyType::Kinematic, .shape = HalfSpace{}}, 1));
+}
+
+// The triangles name more materials than there are.
+TEST(CheckBody, MaterialsOfSurfaces) {
+  const std::vector<Vec3> vertices{{0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}};
+  const std::vector<std::array<uint32_t, 3>> triangles{{0, 1, 2}, {0, 2, 3}};
+  const std::vector<uint16_t> indices{0, 4};
+  const std::vector<float> heights(9, 0);
+  const std::vector<uint16_t> cells{1, 0, HeightFieldDef::kHole, 2};
+  const Mesh mesh{makeMesh({.vertices = vertices, .triangles = triangles, .materials = indices})};
+  const Mesh plain{makeMesh({.vertices = vertices, .triangles = triangles})};
+  const HeightField field{makeHeightField({.columns = 3, .rows = 3, .heights = heights, .materials = cells})};
+  const auto refuse = [](const Geometry& geometry, size_t count, const std::string& range) {
+    const ShapeDef shape{.geometry = geometry, .materials = std::vector<Material>(count)};
+    expectError([&] { checkedShape(Path("ShapeDef"), shape, BodyType::Static, 1); }, "ShapeDef", "materials",
+                std::to_string(count) + " materials", range);
+  };
+  const auto accept = [](const Geometry& geometry, size_t count) {
+    const ShapeDef shape{.geometry = geometry, .materials = std::vector<Material>(count)};
+    EXPECT_NO_THROW(checkedShape(Path("ShapeDef"), shape, BodyType::Static, 1));
+  };
+  refuse(mesh, 4, "at least the 5 that the triangles of the Mesh name");
+  refuse(field, 2, "at least the 3 that the triangles of the HeightField name");
+  refuse(field, 65536, "at most 65535");
+  accept(mesh, 0), accept(mesh, 5), accept(mesh, 9);
+  accept(plain, 1), accept(field, 3), accept(Sphere{}, 1);
 }
 
 TEST(CheckBody, BoundsFollowTheLengthUnit) {

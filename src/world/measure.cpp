@@ -75,19 +75,21 @@ Contact contactOf(const WorldData& data, const PairData& pair) {
   if (pair.hasSurface) {
     (isSurface(data.shapes[pair.shapeA].geom.type) ? contact.elementA : contact.elementB) = pair.element;
   }
-  contact.normal = pair.manifold.normal;
-  contact.pointCount = pair.manifold.count;
-  for (int i = 0; i < pair.manifold.count; ++i) {
+  const PairData& head = *(&pair - pair.patch);
+  if (head.touching) contact.touch = head.touchBegins ? TouchPhase::Begins : TouchPhase::Persists;
+  contact.normal = pair.normal;
+  contact.pointCount = contactPoints(pair);
+  for (int i = 0; i < contact.pointCount; ++i) {
     const ManifoldPoint& from = pair.manifold.points[i];
     ContactPoint& point = contact.points[static_cast<size_t>(i)];
     point = {};
     point.position = pair.origin + from.position;
     point.separation = from.separation;
     point.feature = from.feature;
-    if (i >= pair.pointCount) continue;
-    const Vec3 lambda = pair.points[i].lambda;
-    point.normalForce = lambda.x;
-    point.frictionForce = lambda.y * pair.t1 + lambda.z * pair.t2;
+    if (i >= pair.pointCount + pair.gonePoints) continue;
+    const Vec3 force = pair.points[i].mean;
+    point.normalForce = force.x;
+    point.frictionForce = force.y * pair.t1 + force.z * pair.t2;
   }
   return contact;
 }

@@ -15,6 +15,11 @@ double jointGap(const WorldData& data, const JointData& joint);
 /// Angle between the two frames of a FixedJoint; 0 of others.
 double jointAngleError(const WorldData& data, const JointData& joint);
 
+/// How many points its contact has for the user.
+inline int contactPoints(const PairData& pair) {
+  return pair.manifold.count > 0 ? pair.manifold.count : pair.gonePoints;
+}
+/// Of an entry of a run: with those before it in front of it.
 Contact contactOf(const WorldData& data, const PairData& pair);
 
 }  // namespace avbd

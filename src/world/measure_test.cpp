@@ -76,7 +76,7 @@ TEST(Measure, ContactPoints) {
   pair.manifold.count = 2;
   pair.manifold.points[0] = {{0.25f, 1, 0}, -0.01f, 77};
   pair.pointCount = 1;
-  pair.points[0].lambda = {10, 2, 3};
+  pair.points[0].mean = {10, 2, 3};
   const Contact contact = contactOf(data, pair);
   EXPECT_EQ(contact.shapeB, (ShapeId{2, 1}));
   EXPECT_EQ(contact.bodyA, (BodyId{1, 1}));

@@ -33,6 +33,17 @@ bool mayTouch(const WorldData& data, uint32_t shapeA, uint32_t shapeB) {
   return filtersMeet(a.filter, b.filter) && !isExcluded(data, a.body, b.body);
 }
 
+namespace {
+
+void readWishes(const WorldData& data, PairData& pair) {
+  const ShapeData &a = data.shapes[pair.shapeA], &b = data.shapes[pair.shapeB];
+  pair.reports = pair.isTrigger || (a.contactEvents && b.contactEvents);
+  pair.wantsHits = a.hitEvents || b.hitEvents;
+  pair.hasHook = a.contactHook || b.contactHook;
+}
+
+}  // namespace
+
 PairData newPair(const WorldData& data, uint64_t key) {
   PairData pair;
   pair.shapeA = static_cast<uint32_t>(key >> 32);
@@ -47,19 +58,54 @@ PairData newPair(const WorldData& data, uint64_t key) {
   pair.hasSurface = isSurface(a.geom.type) || isSurface(b.geom.type);
   pair.isTrigger = a.isTrigger || b.isTrigger;
   pair.triggerIsA = a.isTrigger;
-  pair.reports = pair.isTrigger || (a.contactEvents && b.contactEvents);
-  pair.wantsHits = a.hitEvents || b.hitEvents;
-  pair.hasHook = a.contactHook || b.contactHook;
+  readWishes(data, pair);
   return pair;
 }
 
-void loseTouch(WorldData& data, const PairData& pair) {
-  if (!pair.wasTouching || pair.patch != 0) return;
-  data.lostTouches.push_back({{pair.shapeId(0), pair.shapeId(1)},
-                              {pair.bodyId(0), pair.bodyId(1)},
-                              pair.isTrigger,
-                              pair.triggerIsA,
-                              pair.reports});
+namespace {
+
+LostTouch lostTouch(const WorldData& data, const PairData& head) {
+  LostTouch lost{{head.shapeId(0), head.shapeId(1)}, {head.bodyId(0), head.bodyId(1)}};
+  lost.isTrigger = head.isTrigger, lost.triggerIsA = head.triggerIsA;
+  lost.reports = head.reports;
+  lost.wasTouching = head.wasTouching;
+  const TouchPlace place = lastPlace(data, head);
+  lost.position = place.position, lost.normal = place.normal;
+  return lost;
+}
+
+}  // namespace
+
+TouchPlace lastPlace(const WorldData& data, const PairData& head) {
+  const PairData* end = data.pairs.data() + data.pairs.size();
+  for (const PairData* pair = &head; pair != end && pair->key() == head.key(); ++pair)
+    if (pair->manifold.normal != Vec3{})
+      return {pair->origin + pair->manifold.points[0].position, pair->manifold.normal};
+  return {};
+}
+
+void loseTouch(WorldData& data, const PairData& pair, bool inStep) {
+  const bool touched = inStep && pair.touching;
+  if (pair.patch != 0 || (!pair.wasTouching && !touched)) return;
+  data.lostTouches.push_back(lostTouch(data, pair));
+  data.lostTouches.back().touched = touched;
+}
+
+void updateWishes(WorldData& data) {
+  if (!data.wishesChanged) return;
+  data.wishesChanged = false;
+  for (PairData& pair : data.pairs) {
+    // The slot may be another shape's by now.
+    if (!data.shapeIds.isAlive(pair.shapeId(0)) || !data.shapeIds.isAlive(pair.shapeId(1))) continue;
+    const bool reported = pair.reports;
+    readWishes(data, pair);
+    if (pair.reports == reported) continue;
+    if (reported && pair.wasTouching) {
+      data.lostTouches.push_back(lostTouch(data, pair));
+      data.lostTouches.back().reports = data.lostTouches.back().unwanted = true;
+    }
+    if (!reported) pair.wasTouching = false;
+  }
 }
 
 namespace {
@@ -99,20 +145,18 @@ void forgetPairsOfBody(WorldData& data, uint32_t body) {
   for (uint32_t s = data.bodies[body].firstShape; s != kNone; s = data.shapes[s].next) forgetPairsOfShape(data, s);
 }
 
-std::vector<bool> forgottenShapes(const WorldData& data) {
-  std::vector<bool> isForgotten(data.shapes.size());
-  for (const uint32_t slot : data.forgotten) isForgotten[slot] = true;
-  return isForgotten;
+bool isForgotten(const WorldData& data, uint32_t shape) {
+  return std::binary_search(data.forgotten.begin(), data.forgotten.end(), shape);
 }
 
 void dropForgottenPairs(WorldData& data) {
   if (data.forgotten.empty()) return;
-  const std::vector<bool> isForgotten = forgottenShapes(data);
-  std::erase_if(data.pairs, [&](const PairData& pair) {
-    if (!isForgotten[pair.shapeA] && !isForgotten[pair.shapeB]) return false;
-    loseTouch(data, pair);
-    return true;
-  });
+  std::vector<bool> forgotten(data.shapes.size());
+  for (const uint32_t slot : data.forgotten) forgotten[slot] = true;
+  const auto isVoid = [&](const PairData& pair) { return forgotten[pair.shapeA] || forgotten[pair.shapeB]; };
+  for (const PairData& pair : data.pairs)
+    if (isVoid(pair)) loseTouch(data, pair, false);
+  std::erase_if(data.pairs, isVoid);
   data.forgotten.clear();
 }
 
@@ -122,7 +166,7 @@ void erasePairsBetween(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
     for (uint32_t b = data.bodies[bodyB].firstShape; b != kNone; b = data.shapes[b].next) {
       const auto run = std::equal_range(data.pairs.begin(), data.pairs.end(), slotPair(a, b), KeyOrder{});
       if (run.first == run.second) continue;
-      loseTouch(data, *run.first);
+      loseTouch(data, *run.first, false);
       data.pairs.erase(run.first, run.second);
     }
   }

@@ -12,8 +12,17 @@ bool filtersMeet(const Filter& a, const Filter& b);
 bool mayTouch(const WorldData& data, uint32_t shapeA, uint32_t shapeB);
 /// The pair of a key, empty.
 PairData newPair(const WorldData& data, uint64_t key);
-/// Keeps what is needed to report the end of a touching pair that leaves the list.
-void loseTouch(WorldData& data, const PairData& pair);
+/// Keeps what is needed to report the begin and the end of a touching pair that leaves the list. Of a run: its first
+/// entry, with all others still behind it. `inStep`: between substeps, so that `touching` is of this step.
+void loseTouch(WorldData& data, const PairData& pair, bool inStep);
+/// Where the shapes of a pair (of a run: its first entry) were last near each other.
+struct TouchPlace {
+  Vec3d position;  ///< of a point between them
+  Vec3 normal;
+};
+TouchPlace lastPlace(const WorldData& data, const PairData& head);
+/// Tells the pairs what their shapes want now (WorldData::wishesChanged).
+void updateWishes(WorldData& data);
 /// First entry of the pair in the list, or null.
 PairData* findPair(WorldData& data, uint64_t key);
 
@@ -38,14 +47,14 @@ void endExclusion(WorldData& data, uint32_t bodyA, uint32_t bodyB);
 void endExclusionsOf(WorldData& data, uint32_t body);
 bool isExcluded(const WorldData& data, uint32_t bodyA, uint32_t bodyB);
 
-/// By shape slot: whether its pairs are void.
-std::vector<bool> forgottenShapes(const WorldData& data);
+/// Whether its pairs are void.
+bool isForgotten(const WorldData& data, uint32_t shape);
 
 template <class F>
 void forEachPair(const WorldData& data, F&& f) {
-  const std::vector<bool> isForgotten = forgottenShapes(data);
+  const bool all = data.forgotten.empty();
   for (const PairData& pair : data.pairs) {
-    if (!isForgotten[pair.shapeA] && !isForgotten[pair.shapeB]) f(pair);
+    if (all || (!isForgotten(data, pair.shapeA) && !isForgotten(data, pair.shapeB))) f(pair);
   }
 }
 

@@ -3,11 +3,10 @@
 
 #include <avbd/body.h>
 
+#include "geom/sym_mat3d.h"
+
 namespace avbd {
 
-struct SymMat3d {
-  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
-};
 constexpr Vec3d operator*(const SymMat3d& m, Vec3d v) {
   return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
           m.xz * v.x + m.yz * v.y + m.zz * v.z};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geom/triangles.h"
 #include "world/bodies.h"
 #include "world/limits.h"
 #include "world/pairs.h"
@@ -16,14 +17,24 @@ float farthestVertex(const HullData& hull, const NearPose& pose) {
   return far;
 }
 
-// Distance of the shape's farthest point from the centre of mass, or a bound of it; unbounded and fixed shapes have
-// none.
+float farthestCorner(const Aabb& box, const NearPose& pose) {
+  float far = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner{i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y,
+                      i & 4 ? box.upper.z : box.lower.z};
+    far = std::max(far, length(pose * corner));
+  }
+  return far;
+}
+
+// Distance of the shape's farthest point from the centre of mass, or a bound of it; an unbounded shape has none.
 float reach(const ShapeGeom& geom, const NearPose& pose) {
   if (geom.type == ShapeType::Sphere) return length(pose.p) + geom.radius;
   if (geom.type == ShapeType::Capsule) {
     const Vec3 half = rotate(pose.q, geom.extent);
     return std::max(length(pose.p + half), length(pose.p - half)) + geom.radius;
   }
+  if (isSurface(geom.type)) return farthestCorner(surfaceBounds(geom), pose);
   if (!isConvex(geom.type)) return 0;
   if (geom.type == ShapeType::Hull) return farthestVertex(geom.hull(), pose) + geom.radius;
   // The corner on the side on which the box lies.
@@ -52,10 +63,12 @@ float halfThickness(const ShapeGeom& geom) {
 
 void placeShape(BodyData& body, ShapeData& shape) {
   shape.toMass = {toFloat(shape.local.position - toDouble(body.center)), shape.local.rotation};
+  // A trigger meets nothing.
+  if (shape.isTrigger) return;
+  body.radius = std::max(body.radius, reach(shape.geom, shape.toMass));
   if (!isConvex(shape.geom.type)) return;
   const float thickness = halfThickness(shape.geom);
-  body.minExtent = body.radius > 0 ? std::min(body.minExtent, thickness) : thickness;
-  body.radius = std::max(body.radius, reach(shape.geom, shape.toMass));
+  body.minExtent = body.minExtent > 0 ? std::min(body.minExtent, thickness) : thickness;
 }
 
 }  // namespace
@@ -86,6 +99,7 @@ uint32_t addShape(WorldData& data, uint32_t bodySlot, const ShapeDef& def) {
   shape.contactEvents = def.contactEvents;
   shape.hitEvents = def.hitEvents;
   shape.contactHook = def.contactHook;
+  data.hookedShapes += shape.contactHook;
   shape.density = def.density;
   shape.userData = def.userData;
   shape.body = bodySlot;
@@ -101,6 +115,7 @@ void removeShape(WorldData& data, uint32_t slot) {
   ShapeData& shape = data.shapes[slot];
   const uint32_t body = shape.body;
   unmarkUnpaired(data, slot);
+  data.hookedShapes -= shape.contactHook;
   data.tree.remove(shape.proxy);
   uint32_t* link = &data.bodies[body].firstShape;
   while (*link != slot) link = &data.shapes[*link].next;

@@ -26,8 +26,8 @@ struct BodyData {
   SymMat3 inertia, invInertia;  ///< about the centre, body axes
   float linearDamping = 0, angularDamping = 0, gravityScale = 1;
   float maxLinearSpeed = 0, maxAngularSpeed = 0;
-  float radius = 0;             ///< of a ball about the centre of mass that holds all bounded shapes
-  float minExtent = 0;          ///< smallest half thickness of its bounded shapes
+  float radius = 0;             ///< of a ball about the centre of mass that holds all bounded shapes but triggers
+  float minExtent = 0;          ///< smallest half thickness of its convex shapes, triggers left out
   float massScale = 0;          ///< BodyDef.mass: mass that the shapes are scaled to; 0 keeps their densities'
   uint32_t firstShape = kNone;  ///< the newest; ShapeData.next leads to older ones
   uint32_t firstJoint = kNone;  ///< JointData.next[k] leads on, where JointData.body[k] is this body
@@ -84,7 +84,8 @@ struct D6Data {
 /// What a contact point remembers.
 struct PointMemory {
   uint32_t feature = 0;
-  Vec3 lambda;            ///< force of the last step [N]: along the normal (>= 0), t1, t2
+  Vec3 lambda;            ///< force of the last substep [N]: along the normal (>= 0), t1, t2
+  Vec3 mean;              ///< the same over the step so far, with rebounds, times the share of it that is done
   Vec3 anchorA, anchorB;  ///< where it stuck: relative to the centre of mass, body axes
   float rebound = 0;      ///< [m/s] at which it left the other surface in the last step; 0: it did not
   uint8_t sticks = 0;     ///< it did not slip in the last step
@@ -108,11 +109,15 @@ struct PairData {
   bool isFull = false;              ///< in this substep its rows are those of a FullContact
   bool touching = false;            ///< carried force (trigger: overlapped) in this step; of a run in its first entry
   bool wasTouching = false;         ///< the same in the last finished step
-  Vec3d origin;                     ///< A's centre of mass at the start of the step
-  Manifold manifold;                ///< positions relative to origin
-  Vec3 normal, t1, t2;              ///< basis that the memories are given in
+  bool touchBegins = false;         ///< in the last finished step: of a run in its first entry
+  Vec3d origin;                     ///< A's centre of mass at the start of the substep that found the manifold
+  /// Positions relative to origin. With no points it keeps the normal and the first point of its last ones, until they
+  /// are no longer the run's latest: then the normal is zero.
+  Manifold manifold;
+  Vec3 normal, t1, t2;  ///< basis that the memories are given in
   PointMemory points[kMaxManifoldPoints];
-  int32_t pointCount = 0;                                   ///< of `points`: those of the last step
+  int32_t pointCount = 0;  ///< of `points`: those of the last step
+  int32_t gonePoints = 0;  ///< where there are none any more: how many pushed earlier in this step, as they were then
   float staticFriction = 0, friction = 0, restitution = 0;  ///< combined
   float torsionalFriction = 0, rollingFriction = 0;         ///< combined [m]
   Vec3 turn;                   ///< of A against B since its turning sticks [rad]: about the normal, t1, t2
@@ -129,6 +134,11 @@ struct LostTouch {
   ShapeId shape[2];  ///< A, B
   BodyId body[2];
   bool isTrigger = false, triggerIsA = false, reports = true;
+  bool wasTouching = false;  ///< in the last finished step
+  bool touched = false;      ///< in the substeps of this step that went before
+  bool unwanted = false;     ///< nobody asks for its events any more: its end in any case
+  Vec3d position;            ///< of its last point
+  Vec3 normal;
 };
 
 struct WorldData {
@@ -153,6 +163,8 @@ struct WorldData {
   Events events;                       ///< of the last step
   std::vector<LostTouch> lostTouches;  ///< since the last step
   std::function<bool(ContactPlan&)> contactHook;
+  uint32_t hookedShapes = 0;   ///< how many shapes have contactHook
+  bool wishesChanged = false;  ///< some shape's contactEvents, hitEvents or contactHook: pairs do not know it yet
 };
 
 }  // namespace avbd
