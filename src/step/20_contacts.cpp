@@ -23,18 +23,22 @@ float speculativeMargin(const WorldData& world, const BodyData& a, const BodyDat
 namespace {
 
 /// Manifold of two convex shapes, or of one and a half space.
-void findManifold(const WorldData& world, const StepData& step, PairData& pair) {
+void findManifold(WorldData& world, const StepData& step, PairData& pair) {
   const ShapeData &shapeA = world.shapes[pair.shapeA], &shapeB = world.shapes[pair.shapeB];
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
-  Manifold manifold;
+  // Where nothing is found the last manifold's place has to stay: between substeps all of it, as it may have pushed.
+  const Vec3 lastNormal = pair.manifold.normal, lastPoint = pair.manifold.points[0].position;
+  Manifold last;
+  if (step.substep > 0) last = pair.manifold;
   collide(shapeA.geom, nearPose(a, shapeA, a.position), shapeB.geom, nearPose(b, shapeB, a.position),
-          speculativeMargin(world, a, b, step.h), manifold);
-  if (manifold.count == 0) {
-    forgetContact(step, pair);
+          speculativeMargin(world, a, b, step.h), pair.manifold);
+  if (pair.manifold.count == 0) {
+    if (step.substep > 0) pair.manifold = last;
+    pair.manifold.normal = lastNormal, pair.manifold.points[0].position = lastPoint;
+    forgetContact(world, step, pair);
     return;
   }
   pair.origin = a.position;
-  pair.manifold = manifold;
   combineMaterials(pair, shapeA.material, shapeB.material);
   const bool begins = pair.pointCount == 0;
   rememberPoints(world, step, pair);

@@ -3,6 +3,7 @@
 
 #include "solve/body_rows.h"
 #include "step/begin_rows.h"
+#include "step/contacts.h"
 #include "step/free_motion.h"
 #include "step/publish_events.h"
 
@@ -30,8 +31,7 @@ void publishBodies(WorldData& world, const StepData& step) {
 
 /// What is published of a contact's rows.
 struct Forces {
-  PointForces normal;  ///< of the rows alone
-  PointForces whole;   ///< with what rebounds add
+  PointForces normal;
   float t1[kMaxManifoldPoints], t2[kMaxManifoldPoints], mu[kMaxManifoldPoints];
 };
 
@@ -39,7 +39,6 @@ AVBD_INLINE Forces forcesOf(const rows::Contact<float>& c) {
   Forces forces;
   for (int i = 0; i < kMaxManifoldPoints; ++i) {
     forces.normal[static_cast<size_t>(i)] = c.point[i].lambdaN;
-    forces.whole[static_cast<size_t>(i)] = c.point[i].lambdaN;
     forces.t1[i] = c.point[i].lambda1, forces.t2[i] = c.point[i].lambda2, forces.mu[i] = c.point[i].mu;
   }
   return forces;
@@ -52,22 +51,20 @@ bool insideCone(Vec3 lambda, float mu) {
 }
 
 /// The velocity pass pushes too. `next`: in step.bounces, which has the contacts in the order in which they come here.
-void addBounces(const StepData& step, uint32_t pair, size_t& next, Forces& forces) {
+void addBounces(const StepData& step, uint32_t pair, size_t& next, PointForces& normal) {
   for (; next < step.bounces.size() && step.bounces[next].pair == pair; ++next) {
     const Bounce& bounce = step.bounces[next];
-    float& whole = forces.whole[static_cast<size_t>(bounce.point)];
+    float& whole = normal[static_cast<size_t>(bounce.point)];
     // Nothing but rounding would be left of what was taken back.
     whole = bounce.impulse > bounce.least ? whole + bounce.impulse / step.h : 0;
   }
 }
 
-/// `share`: of the substep in the step.
-void publishPoints(PairData& pair, const Forces& forces, float share) {
+void publishPoints(PairData& pair, const Forces& forces) {
   bool slides = true;
   for (int i = 0; i < pair.pointCount; ++i) {
     PointMemory& point = pair.points[i];
     point.lambda = {forces.normal[static_cast<size_t>(i)], forces.t1[i], forces.t2[i]};
-    point.mean = point.mean + Vec3{forces.whole[static_cast<size_t>(i)], forces.t1[i], forces.t2[i]} * share;
     point.sticks = insideCone(point.lambda, forces.mu[i]) ? 1 : 0;
     if (point.sticks) slides = false;
   }
@@ -95,25 +92,40 @@ Vec3 turnOf(const StepData& step, uint32_t row) {
   return {d[4], d[5], d[6]};
 }
 
-void publishContact(WorldData& world, StepData& step, uint32_t pair, const rows::Contact<float>& c, size_t& bounce) {
-  Forces forces = forcesOf(c);
-  addBounces(step, pair, bounce, forces);
-  noteContact(world, step, pair, forces.whole);
-  publishPoints(world.pairs[pair], forces, 1 / static_cast<float>(world.def.substeps));
+void publishMeans(WorldData& world, PairData& pair, const PointForces& whole) {
+  const float share = 1 / static_cast<float>(world.def.substeps);
+  PointMeans& means = meansOf(world, pair);
+  for (size_t i = 0; i < static_cast<size_t>(pair.pointCount); ++i)
+    means[i] = means[i] + Vec3{whole[i], pair.points[i].lambda.y, pair.points[i].lambda.z} * share;
+}
+
+void publishContact(WorldData& world, StepData& step, uint32_t pair, const Forces& forces, size_t& bounce) {
+  const bool bounces = bounce < step.bounces.size() && step.bounces[bounce].pair == pair;
+  if (!bounces && world.def.substeps == 1) {
+    noteContact(world, step, pair, forces.normal);
+    publishPoints(world.pairs[pair], forces);
+    return;
+  }
+  PointForces whole = forces.normal;
+  addBounces(step, pair, bounce, whole);
+  noteContact(world, step, pair, whole);
+  publishPoints(world.pairs[pair], forces);
+  publishMeans(world, world.pairs[pair], whole);
 }
 
 void publishContacts(WorldData& world, StepData& step) {
   size_t bounce = 0;
   for (size_t lane = 0; lane < step.contactPair.size(); ++lane) {
     if (step.contactPair[lane] == kNone) continue;
-    publishContact(world, step, step.contactPair[lane], step.contacts[lane / kTile].get(lane % kTile), bounce);
+    const Forces forces = forcesOf(step.contacts[lane / kTile].get(lane % kTile));
+    publishContact(world, step, step.contactPair[lane], forces, bounce);
   }
   for (const BatchRange& batch : step.batches)
     for (size_t lane = size_t(batch.fullTile) * kTile; lane < size_t(batch.fullTile + batch.fullTiles) * kTile;
          ++lane) {
       if (step.fullPair[lane] == kNone) continue;
       const rows::FullContact<float> full = step.full[lane / kTile].get(lane % kTile);
-      publishContact(world, step, step.fullPair[lane], full.contact, bounce);
+      publishContact(world, step, step.fullPair[lane], forcesOf(full.contact), bounce);
       publishTurning(
           world.pairs[step.fullPair[lane]], full,
           turnOf(step, batch.rowBegin + step.fullRow[0][lane]) - turnOf(step, batch.rowBegin + step.fullRow[1][lane]));

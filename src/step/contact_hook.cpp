@@ -89,7 +89,7 @@ void askHook(WorldData& world, StepData& step) {
     if (!accepted) {
       --world.report.contacts;
       world.report.points -= static_cast<uint32_t>(pair.pointCount);
-      forgetContact(step, pair);
+      forgetContact(world, step, pair);
       step.touchChanges.push_back(pair.key());
       continue;
     }
@@ -106,6 +106,7 @@ void rememberPairs(const WorldData& world, StepData& step) {
 /// The bounds in the tree have moved on, so the next step looks for all pairs anew.
 void restorePairs(WorldData& world, StepData& step) {
   world.pairs.swap(step.pairsBefore);
+  world.means.swap(step.meansBefore);
   world.lostTouches.resize(step.lostBefore);
   world.unpaired.resize(world.shapes.size());
   std::iota(world.unpaired.begin(), world.unpaired.end(), 0u);

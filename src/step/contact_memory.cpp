@@ -55,20 +55,35 @@ void rememberTurning(PairData& pair, const ContactBasis* known) {
 
 }  // namespace
 
-void inheritForce(PairData& pair, const OldPoint& gone) {
-  if (gone.memory.mean == Vec3{} || dot(gone.basis.normal, pair.normal) <= kSameNormal) return;
-  PointMemory* nearest = nullptr;
+PointMeans& meansOf(WorldData& world, PairData& pair) {
+  if (pair.mean == kNone) {
+    pair.mean = static_cast<uint32_t>(world.means.size());
+    world.means.push_back({});
+  }
+  return world.means[pair.mean];
+}
+
+void continueForce(WorldData& world, PairData& pair, int i, const OldPoint* old) {
+  const bool same = old && dot(old->basis.normal, pair.normal) > kSameNormal;
+  meansOf(world, pair)[static_cast<size_t>(i)] = same ? toBasis(pair, old->basis, old->mean) : Vec3{};
+}
+
+void inheritForce(WorldData& world, PairData& pair, const OldPoint& gone) {
+  if (gone.mean == Vec3{} || dot(gone.basis.normal, pair.normal) <= kSameNormal) return;
+  int nearest = -1;
   float best = 0;
   for (int i = 0; i < pair.pointCount; ++i) {
     const Vec3 gap = gone.memory.anchorA - pair.points[i].anchorA;
-    if (nearest && dot(gap, gap) >= best) continue;
-    nearest = &pair.points[i];
+    if (nearest >= 0 && dot(gap, gap) >= best) continue;
+    nearest = i;
     best = dot(gap, gap);
   }
-  if (nearest) nearest->mean = nearest->mean + toBasis(pair, gone.basis, gone.memory.mean);
+  if (nearest < 0) return;
+  Vec3& mean = meansOf(world, pair)[static_cast<size_t>(nearest)];
+  mean = mean + toBasis(pair, gone.basis, gone.mean);
 }
 
-void rememberPoints(const WorldData& world, const StepData& step, PairData& pair, const KnownPoint* known) {
+void rememberPoints(const WorldData& world, PairData& pair, const KnownPoint* known) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   const Vec3 fromAToB = toFloat(b.position - a.position);
   const float drift = kAnchorDrift * smallerSize(a, b);
@@ -82,7 +97,6 @@ void rememberPoints(const WorldData& world, const StepData& step, PairData& pair
     PointMemory& point = pair.points[i];
     point = old ? *old : PointMemory{};
     if (old) point.lambda = toBasis(pair, *basis, old->lambda);
-    point.mean = old && step.substep > 0 ? toBasis(pair, *basis, old->mean) : Vec3{};
     const Vec3 driftA = onA - point.anchorA, driftB = onB - point.anchorB;
     const bool rolled = dot(driftA, driftA) > drift * drift || dot(driftB, driftB) > drift * drift;
     if (!old || !point.sticks || rolled) point.anchorA = onA, point.anchorB = onB;
@@ -95,22 +109,36 @@ void rememberPoints(const WorldData& world, const StepData& step, PairData& pair
   pair.gonePoints = 0;
 }
 
-void rememberPoints(const WorldData& world, const StepData& step, PairData& pair) {
+namespace {
+
+/// Remembers the points, and what they gave in the substeps before: apart, as most steps have none.
+void rememberForces(WorldData& world, PairData& pair, const KnownPoint* known, const int (&match)[kMaxManifoldPoints]) {
+  OldPoint old[kMaxManifoldPoints];
+  const int count = pair.mean != kNone ? pair.pointCount + pair.gonePoints : 0;
+  for (int j = 0; j < count; ++j)
+    old[j] = {pair.points[j], {pair.normal, pair.t1, pair.t2}, world.means[pair.mean][static_cast<size_t>(j)]};
+  rememberPoints(world, pair, known);
+  for (int i = 0; i < pair.pointCount; ++i)
+    continueForce(world, pair, i, match[i] >= 0 && count > 0 ? &old[match[i]] : nullptr);
+  for (int j = 0; j < count; ++j)
+    if (std::find(match, match + pair.pointCount, j) == match + pair.pointCount) inheritForce(world, pair, old[j]);
+}
+
+}  // namespace
+
+void rememberPoints(WorldData& world, const StepData& step, PairData& pair) {
   const ContactBasis basis{pair.normal, pair.t1, pair.t2};
   PointMemory before[kMaxManifoldPoints];
-  const int count = pair.pointCount + pair.gonePoints;
-  for (int i = 0; i < count; ++i) before[i] = pair.points[i];
+  for (int i = 0; i < pair.pointCount; ++i) before[i] = pair.points[i];
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   int match[kMaxManifoldPoints];
   matchPoints(pair, a, kNearPoint * smallerSize(a, b), match);
   KnownPoint known[kMaxManifoldPoints];
   for (int i = 0; i < pair.manifold.count; ++i)
     if (match[i] >= 0) known[i] = {&before[match[i]], &basis};
-  rememberPoints(world, step, pair, known);
-  if (step.substep == 0) return;
-  for (int j = 0; j < count; ++j)
-    if (std::find(match, match + pair.manifold.count, j) == match + pair.manifold.count)
-      inheritForce(pair, {before[j], basis});
+  if (step.substep > 0) return rememberForces(world, pair, known, match);
+  pair.mean = kNone;
+  rememberPoints(world, pair, known);
 }
 
 /// Fast enough along the surface that friction cannot hold it within the step.
@@ -124,10 +152,11 @@ void beginSlide(const WorldData& world, const StepData& step, PairData& pair, Ve
   pair.landedSliding = length(slip) > pair.staticFriction * length(world.def.gravity) * step.h;
 }
 
-void forgetContact(const StepData& step, PairData& pair) {
-  if (step.substep == 0) pair.gonePoints = 0;
-  for (int i = 0; step.substep > 0 && i < pair.pointCount; ++i)
-    if (pair.points[i].mean != Vec3{}) pair.gonePoints = pair.pointCount;
+void forgetContact(const WorldData& world, const StepData& step, PairData& pair) {
+  if (step.substep == 0) pair.gonePoints = 0, pair.mean = kNone;
+  for (int i = 0; pair.mean != kNone && i < pair.pointCount; ++i)
+    if (world.means[pair.mean][static_cast<size_t>(i)] != Vec3{})
+      pair.gonePoints = static_cast<uint8_t>(pair.pointCount);
   pair.manifold.count = 0;
   pair.pointCount = 0;
   pair.slides = 0;

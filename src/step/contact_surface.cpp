@@ -51,7 +51,8 @@ class Run {
 
   PairData newEntry(const PairData& head, uint16_t patch) const {
     PairData pair = head;
-    forgetContact(step_, pair);
+    pair.mean = kNone;
+    forgetContact(world_, step_, pair);
     pair.gonePoints = 0;
     pair.touching = pair.wasTouching = pair.touchBegins = false;
     pair.patch = patch;
@@ -64,7 +65,9 @@ class Run {
     for (uint32_t i = 0; i < size_; ++i) {
       const PairData& pair = world_.pairs[begin_ + i];
       for (int k = 0; k < pair.pointCount; ++k) {
-        step_.oldPoints.push_back({pair.points[k], {pair.normal, pair.t1, pair.t2}});
+        const bool gave = step_.substep > 0 && pair.mean != kNone;
+        const Vec3 mean = gave ? world_.means[pair.mean][static_cast<size_t>(k)] : Vec3{};
+        step_.oldPoints.push_back({pair.points[k], {pair.normal, pair.t1, pair.t2}, mean});
         step_.oldEntry.push_back(i);
       }
     }
@@ -156,21 +159,28 @@ class Run {
     KnownPoint known[kMaxManifoldPoints];
     for (uint32_t k = 0; k < kMaxManifoldPoints; ++k) {
       const uint32_t match = step_.match[p * kMaxManifoldPoints + k];
-      if (match != kNone) known[k] = {&step_.oldPoints[match].memory, &step_.oldPoints[match].basis};
+      if (match == kNone) continue;
+      const OldPoint& old = step_.oldPoints[match];
+      known[k] = {&old.memory, &old.basis};
     }
-    rememberPoints(world_, step_, pair, known);
+    if (step_.substep == 0) pair.mean = kNone;
+    rememberPoints(world_, pair, known);
+    for (int k = 0; step_.substep > 0 && k < pair.pointCount; ++k) {
+      const uint32_t match = step_.match[p * kMaxManifoldPoints + static_cast<uint32_t>(k)];
+      continueForce(world_, pair, k, match != kNone ? &step_.oldPoints[match] : nullptr);
+    }
     if (!step_.continues[p]) beginSlide(world_, step_, pair, {});
   }
 
   /// Where others go on, its manifold is not the latest any more.
   void closeEntry(PairData& pair) const {
-    forgetContact(step_, pair);
+    forgetContact(world_, step_, pair);
     if (!step_.patches.empty()) pair.manifold.normal = {};
   }
 
   void inheritForces() {
     for (uint32_t j = 0; j < step_.oldPoints.size(); ++j)
-      if (!step_.oldTaken[j]) inheritForce(world_.pairs[begin_ + step_.oldEntry[j]], step_.oldPoints[j]);
+      if (!step_.oldTaken[j]) inheritForce(world_, world_.pairs[begin_ + step_.oldEntry[j]], step_.oldPoints[j]);
   }
 
   WorldData& world_;

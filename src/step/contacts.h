@@ -26,15 +26,19 @@ struct KnownPoint {
   const ContactBasis* basis = nullptr;
 };
 /// The manifold is new: turns the basis and carries over what the points remember, `known` one by one.
-void rememberPoints(const WorldData& world, const StepData& step, PairData& pair, const KnownPoint* known);
+void rememberPoints(const WorldData& world, PairData& pair, const KnownPoint* known);
 /// The same for a pair of convex shapes: finds the points that continue.
-void rememberPoints(const WorldData& world, const StepData& step, PairData& pair);
-/// What a point that is gone gave in this step counts to the nearest one of the pair.
-void inheritForce(PairData& pair, const OldPoint& gone);
+void rememberPoints(WorldData& world, const StepData& step, PairData& pair);
+/// Point i has what `old` (null: nothing) gave in the substeps before.
+void continueForce(WorldData& world, PairData& pair, int i, const OldPoint* old);
+/// What a point that is gone gave in them counts to the nearest one of the pair.
+void inheritForce(WorldData& world, PairData& pair, const OldPoint& gone);
+/// Makes room for the means of a pair that has none yet in this step.
+PointMeans& meansOf(WorldData& world, PairData& pair);
 /// A contact that begins: whether it does so as a slide. `belt`: at what velocity B's surface shall slide over A's.
 void beginSlide(const WorldData& world, const StepData& step, PairData& pair, Vec3 belt);
 /// What has pushed in this step stays to be shown.
-void forgetContact(const StepData& step, PairData& pair);
+void forgetContact(const WorldData& world, const StepData& step, PairData& pair);
 
 /// Friction, restitution ... of a pair from the materials of its shapes (contact_materials.cpp).
 void combineMaterials(PairData& pair, const Material& a, const Material& b);

@@ -33,8 +33,8 @@ void noteHit(const WorldData& world, StepData& step, const PairData& pair, const
   if (hit.event.impulse > 0) step.hits.push_back(hit);
 }
 
-/// For the begin of a touch, if this step makes one.
-void noteTouch(StepData& step, const PairData& pair, const PointForces& forces) {
+/// For the begin of a touch, if this step makes one. Rare, so kept out of the way of what goes on.
+[[gnu::noinline]] void noteTouch(StepData& step, const PairData& pair, const PointForces& forces) {
   TouchRecord touch;
   touch.key = pair.key();
   touch.order = static_cast<uint32_t>(step.touches.size());
@@ -199,7 +199,9 @@ void publishMoves(WorldData& world, const StepData& step) {
 
 }  // namespace
 
-void beginEvents(const WorldData& world, StepData& step) {
+void beginEvents(WorldData& world, StepData& step) {
+  world.means.swap(step.meansBefore);
+  world.means.clear();
   step.lostBefore = world.lostTouches.size();
   step.hits.clear();
   step.touches.clear();

@@ -9,7 +9,7 @@ namespace avbd {
 using PointForces = std::array<float, kMaxManifoldPoints>;
 
 /// At the start of a step. The events of the last one stay until the end of this one.
-void beginEvents(const WorldData& world, StepData& step);
+void beginEvents(WorldData& world, StepData& step);
 /// A contact that was solved, while the bodies' velocities and the points' forces are still those of the start of the
 /// substep. `index`: of the pair.
 void noteContact(WorldData& world, StepData& step, uint32_t index, const PointForces& forces);

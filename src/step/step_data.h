@@ -86,6 +86,7 @@ struct ContactBasis {
 struct OldPoint {
   PointMemory memory;
   ContactBasis basis;
+  Vec3 mean;  ///< as in WorldData::means, after the first substep
 };
 
 /// What the contact hook wants of a contact beyond its coefficients.
@@ -125,9 +126,10 @@ struct StepData {
   const Backend* backend = nullptr;
   int substep = 0;  ///< that runs
 
-  std::vector<BodyData> bodiesBefore;  ///< the whole step, where substeps may fail
-  std::vector<PairData> pairsBefore;   ///< the same, where the contact hook may fail: if pairsKept
-  size_t lostBefore = 0;               ///< how many lostTouches there were when the step began
+  std::vector<BodyData> bodiesBefore;   ///< the whole step, where substeps may fail
+  std::vector<PairData> pairsBefore;    ///< the same, where the contact hook may fail: if pairsKept
+  size_t lostBefore = 0;                ///< how many lostTouches there were when the step began
+  std::vector<PointMeans> meansBefore;  ///< of the step before
   bool pairsKept = false;
 
   // 10_pairs

@@ -87,7 +87,7 @@ Contact contactOf(const WorldData& data, const PairData& pair) {
     point.separation = from.separation;
     point.feature = from.feature;
     if (i >= pair.pointCount + pair.gonePoints) continue;
-    const Vec3 force = pair.points[i].mean;
+    const Vec3 force = pair.mean != kNone ? data.means[pair.mean][static_cast<size_t>(i)] : pair.points[i].lambda;
     point.normalForce = force.x;
     point.frictionForce = force.y * pair.t1 + force.z * pair.t2;
   }

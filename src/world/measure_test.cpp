@@ -76,7 +76,7 @@ TEST(Measure, ContactPoints) {
   pair.manifold.count = 2;
   pair.manifold.points[0] = {{0.25f, 1, 0}, -0.01f, 77};
   pair.pointCount = 1;
-  pair.points[0].mean = {10, 2, 3};
+  pair.points[0].lambda = {10, 2, 3};
   const Contact contact = contactOf(data, pair);
   EXPECT_EQ(contact.shapeB, (ShapeId{2, 1}));
   EXPECT_EQ(contact.bodyA, (BodyId{1, 1}));
@@ -89,6 +89,15 @@ TEST(Measure, ContactPoints) {
   EXPECT_EQ(point.frictionForce, (Vec3{3, 0, 2}));
   EXPECT_EQ(point.feature, 77u);
   EXPECT_EQ(contact.points[1].normalForce, 0) << "a point without memory carries nothing";
+  data.means = {{}, {Vec3{4, 5, 6}}};
+  pair.mean = 1;
+  EXPECT_EQ(contactOf(data, pair).points[0].normalForce, 4);
+  EXPECT_EQ(contactOf(data, pair).points[0].frictionForce, (Vec3{6, 0, 5}));
+  pair.manifold.count = pair.pointCount = 0;
+  EXPECT_EQ(contactOf(data, pair).pointCount, 0);
+  pair.gonePoints = 1;
+  EXPECT_EQ(contactOf(data, pair).pointCount, 1);
+  EXPECT_EQ(contactOf(data, pair).points[0].normalForce, 4) << "pushed in an earlier substep";
 }
 
 TEST(StateHash, SeesEveryFieldThatAStepChanges) {

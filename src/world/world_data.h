@@ -85,11 +85,13 @@ struct D6Data {
 struct PointMemory {
   uint32_t feature = 0;
   Vec3 lambda;            ///< force of the last substep [N]: along the normal (>= 0), t1, t2
-  Vec3 mean;              ///< the same over the step so far, with rebounds, times the share of it that is done
   Vec3 anchorA, anchorB;  ///< where it stuck: relative to the centre of mass, body axes
   float rebound = 0;      ///< [m/s] at which it left the other surface in the last step; 0: it did not
   uint8_t sticks = 0;     ///< it did not slip in the last step
 };
+
+/// Of the points of a pair: force over the step so far, with rebounds, as a mean over all of it [N]: as lambda.
+using PointMeans = std::array<Vec3, kMaxManifoldPoints>;
 
 /// Two shapes whose bounds overlap, with their contact points. A pair with a surface owns a run of these: one for each
 /// patch that it touched at most so far, numbered from 0; those that are not in use have no points.
@@ -116,14 +118,17 @@ struct PairData {
   Manifold manifold;
   Vec3 normal, t1, t2;  ///< basis that the memories are given in
   PointMemory points[kMaxManifoldPoints];
-  int32_t pointCount = 0;  ///< of `points`: those of the last step
-  int32_t gonePoints = 0;  ///< where there are none any more: how many pushed earlier in this step, as they were then
+  int32_t pointCount = 0;                                   ///< of `points`: those of the last step
   float staticFriction = 0, friction = 0, restitution = 0;  ///< combined
   float torsionalFriction = 0, rollingFriction = 0;         ///< combined [m]
   Vec3 turn;                   ///< of A against B since its turning sticks [rad]: about the normal, t1, t2
   Vec3 torque;                 ///< against turning in the last step [N m], likewise
   uint8_t slides = 0;          ///< steps since any point stuck, saturating: from 2 on friction is dynamic
   bool landedSliding = false;  ///< friction is dynamic from the first step on, until a point sticks
+  uint8_t gonePoints = 0;  ///< where there are none any more: how many pushed earlier in this step, as they were then
+  /// In WorldData::means, where the step has substeps or something rebounded in it; else the points' lambda says it
+  /// all.
+  uint32_t mean = kNone;
   uint64_t key() const { return uint64_t(shapeA) << 32 | shapeB; }
   ShapeId shapeId(int side) const { return {(side ? shapeB : shapeA) + 1, generation[side]}; }
   BodyId bodyId(int side) const { return {(side ? bodyB : bodyA) + 1, generation[2 + side]}; }
@@ -160,6 +165,7 @@ struct WorldData {
   bool treeBehind = false;  ///< bodies have moved since the tree was last fitted: a query fits it first
   double time = 0;
   StepReport report;
+  std::vector<PointMeans> means;       ///< of the last step, by PairData::mean
   Events events;                       ///< of the last step
   std::vector<LostTouch> lostTouches;  ///< since the last step
   std::function<bool(ContactPlan&)> contactHook;
