@@ -5,6 +5,7 @@
 
 #include <mutex>
 
+#include "api/scaled_hulls.h"
 #include "step/step.h"
 #include "world/world_data.h"
 
@@ -14,6 +15,7 @@ struct World::Impl {
   WorldData data;
   Stepper stepper;
   std::mutex treeMutex;  ///< held by the query that fits the tree
+  ScaledHulls scaledHulls;
 };
 
 }  // namespace avbd

@@ -44,16 +44,32 @@ CheckedRay checkedRay(const Path& path, const Ray& ray, float unit) {
   return {ray.origin, {d * (1 / size), ray.length}};
 }
 
-/// A convex geometry in the world; holds what its plain data points to.
+/// A convex geometry at a pose that was checked, with its rotation made exact.
 struct CheckedShape {
+  const Geometry& geometry;
+  Pose pose;
+
+  CheckedShape(const Path& path, const Geometry& g, const Pose& p, float unit) : geometry(g) {
+    const Path geometryPath = path / "geometry";
+    checkGeometry(geometryPath, geometry, unit);
+    if (isOnlyFixed(geometry)) geometryPath.refuse(geometryName(geometry), "must be convex and bounded");
+    pose = checkedPose(path / "pose", p, kMaxPosition * unit);
+  }
+};
+
+/// The same as plain data; holds what that points to.
+struct ReadyShape {
   std::shared_ptr<const HullData> keep;
   Placed placed;
 
-  CheckedShape(const Path& geometryPath, const Geometry& geometry, const Path& posePath, const Pose& pose, float unit) {
-    checkGeometry(geometryPath, geometry, unit);
-    if (isOnlyFixed(geometry)) geometryPath.refuse(geometryName(geometry), "must be convex and bounded");
-    placed.pose = checkedPose(posePath, pose, kMaxPosition * unit);
-    placed.geom = toShapeGeom(geometry, keep);
+  ReadyShape(const CheckedShape& shape, ScaledHulls& hulls) : placed{{}, shape.pose} {
+    const Hull* hull = std::get_if<Hull>(&shape.geometry);
+    if (!hull || hull->scale == Vec3{1, 1, 1}) {
+      placed.geom = toShapeGeom(shape.geometry);
+    } else {
+      keep = hulls.find(hull->data, hull->scale);
+      placed.geom = {ShapeType::Hull, hull->rounding, {}, keep.get()};
+    }
   }
 };
 
@@ -126,14 +142,12 @@ std::vector<CastHit> World::rayAll(const Ray& ray, const QueryFilter& filter) co
 
 namespace {
 
-/// A ShapeCast, ready.
 struct CheckedCast {
   CheckedShape shape;
   Way way;
 
   CheckedCast(const Path& path, const ShapeCast& cast, float unit)
-      : shape(path / "geometry", cast.geometry, path / "pose", cast.pose, unit),
-        way(checkedMotion(path / "motion", cast.motion, unit)) {}
+      : shape(path, cast.geometry, cast.pose, unit), way(checkedMotion(path / "motion", cast.motion, unit)) {}
 };
 
 }  // namespace
@@ -141,8 +155,9 @@ struct CheckedCast {
 CastHit World::castClosest(const ShapeCast& cast, const QueryFilter& filter) const {
   const Path call("World::castClosest");
   const CheckedCast c(call / "cast", cast, impl_->data.def.lengthUnit);
+  const ReadyShape ready(c.shape, impl_->scaledHulls);
   const WorldData& data = fitted(impl_->data, impl_->treeMutex);
-  return toPublic(data, avbd::castClosest(sightOf(data, filter, call), c.shape.placed, c.way));
+  return toPublic(data, avbd::castClosest(sightOf(data, filter, call), ready.placed, c.way));
 }
 
 CastHit World::castClosest(const Geometry& geometry, const Pose& pose, Vec3 motion, const QueryFilter& filter) const {
@@ -152,15 +167,17 @@ CastHit World::castClosest(const Geometry& geometry, const Pose& pose, Vec3 moti
 bool World::castAny(const ShapeCast& cast, const QueryFilter& filter) const {
   const Path call("World::castAny");
   const CheckedCast c(call / "cast", cast, impl_->data.def.lengthUnit);
+  const ReadyShape ready(c.shape, impl_->scaledHulls);
   const WorldData& data = fitted(impl_->data, impl_->treeMutex);
-  return avbd::castAny(sightOf(data, filter, call), c.shape.placed, c.way);
+  return avbd::castAny(sightOf(data, filter, call), ready.placed, c.way);
 }
 
 std::vector<CastHit> World::castAll(const ShapeCast& cast, const QueryFilter& filter) const {
   const Path call("World::castAll");
   const CheckedCast c(call / "cast", cast, impl_->data.def.lengthUnit);
+  const ReadyShape ready(c.shape, impl_->scaledHulls);
   const WorldData& data = fitted(impl_->data, impl_->treeMutex);
-  return listOf(data, avbd::castAll(sightOf(data, filter, call), c.shape.placed, c.way));
+  return listOf(data, avbd::castAll(sightOf(data, filter, call), ready.placed, c.way));
 }
 
 std::vector<CastHit> World::castAll(const Geometry& geometry, const Pose& pose, Vec3 motion,
@@ -170,14 +187,14 @@ std::vector<CastHit> World::castAll(const Geometry& geometry, const Pose& pose, 
 
 std::vector<ShapeId> World::overlaps(const Geometry& geometry, const Pose& pose, const QueryFilter& filter) const {
   const Path call("World::overlaps");
-  const CheckedShape shape(call / "geometry", geometry, call / "pose", pose, impl_->data.def.lengthUnit);
+  const ReadyShape shape({call, geometry, pose, impl_->data.def.lengthUnit}, impl_->scaledHulls);
   const WorldData& data = fitted(impl_->data, impl_->treeMutex);
   return listOf(data, overlapping(sightOf(data, filter, call), shape.placed));
 }
 
 bool World::overlapsAny(const Geometry& geometry, const Pose& pose, const QueryFilter& filter) const {
   const Path call("World::overlapsAny");
-  const CheckedShape shape(call / "geometry", geometry, call / "pose", pose, impl_->data.def.lengthUnit);
+  const ReadyShape shape({call, geometry, pose, impl_->data.def.lengthUnit}, impl_->scaledHulls);
   const WorldData& data = fitted(impl_->data, impl_->treeMutex);
   return avbd::overlapsAny(sightOf(data, filter, call), shape.placed);
 }
@@ -186,8 +203,9 @@ std::vector<NearHit> World::nearest(const Geometry& geometry, const Pose& pose, 
                                     const QueryFilter& filter) const {
   const Path call("World::nearest");
   const float unit = impl_->data.def.lengthUnit;
-  const CheckedShape shape(call / "geometry", geometry, call / "pose", pose, unit);
+  const CheckedShape checked(call, geometry, pose, unit);
   check(call / "maxDistance", maxDistance, notNegative(2 * kMaxPosition * unit));
+  const ReadyShape shape(checked, impl_->scaledHulls);
   const WorldData& data = fitted(impl_->data, impl_->treeMutex);
   return listOf(data, nearestAll(sightOf(data, filter, call), shape.placed, maxDistance));
 }
@@ -196,8 +214,9 @@ NearHit World::nearestClosest(const Geometry& geometry, const Pose& pose, float 
                               const QueryFilter& filter) const {
   const Path call("World::nearestClosest");
   const float unit = impl_->data.def.lengthUnit;
-  const CheckedShape shape(call / "geometry", geometry, call / "pose", pose, unit);
+  const CheckedShape checked(call, geometry, pose, unit);
   check(call / "maxDistance", maxDistance, notNegative(2 * kMaxPosition * unit));
+  const ReadyShape shape(checked, impl_->scaledHulls);
   const WorldData& data = fitted(impl_->data, impl_->treeMutex);
   return toPublic(data, avbd::nearestClosest(sightOf(data, filter, call), shape.placed, maxDistance));
 }
@@ -246,7 +265,7 @@ void World::castsClosest(std::span<const ShapeCast> casts, std::span<CastHit> ou
   const Sight sight = sightOf(data, filter, call);
   for (size_t i = 0; i < casts.size(); ++i) {
     const CheckedCast c(entries[i], casts[i], unit);
-    out[i] = toPublic(data, avbd::castClosest(sight, c.shape.placed, c.way));
+    out[i] = toPublic(data, avbd::castClosest(sight, ReadyShape(c.shape, impl_->scaledHulls).placed, c.way));
   }
 }
 
@@ -254,15 +273,39 @@ void World::overlapTests(std::span<const PlacedGeometry> placed, std::span<uint8
                          const QueryFilter& filter) const {
   const Path call("World::overlapTests"), entries = call / "placed";
   const float unit = impl_->data.def.lengthUnit;
-  const auto checked = [&](size_t i) {
-    const Path entry = entries[i];
-    return CheckedShape(entry / "geometry", placed[i].geometry, entry / "pose", placed[i].pose, unit);
-  };
   checkCount(call / "out", out.size(), placed.size(), "placed");
-  for (size_t i = 0; i < placed.size(); ++i) checked(i);
+  for (size_t i = 0; i < placed.size(); ++i) CheckedShape(entries[i], placed[i].geometry, placed[i].pose, unit);
   const WorldData& data = fitted(impl_->data, impl_->treeMutex);
   const Sight sight = sightOf(data, filter, call);
-  for (size_t i = 0; i < placed.size(); ++i) out[i] = avbd::overlapsAny(sight, checked(i).placed) ? 1 : 0;
+  for (size_t i = 0; i < placed.size(); ++i) {
+    const ReadyShape shape({entries[i], placed[i].geometry, placed[i].pose, unit}, impl_->scaledHulls);
+    out[i] = avbd::overlapsAny(sight, shape.placed) ? 1 : 0;
+  }
+}
+
+void World::nearestOfEach(std::span<const PlacedGeometry> placed, float maxDistance, std::span<NearHit> out,
+                          const QueryFilter& filter) const {
+  const Path call("World::nearestOfEach"), entries = call / "placed";
+  const float unit = impl_->data.def.lengthUnit;
+  checkCount(call / "out", out.size(), placed.size(), "placed");
+  for (size_t i = 0; i < placed.size(); ++i) CheckedShape(entries[i], placed[i].geometry, placed[i].pose, unit);
+  check(call / "maxDistance", maxDistance, notNegative(2 * kMaxPosition * unit));
+  const WorldData& data = fitted(impl_->data, impl_->treeMutex);
+  const Sight sight = sightOf(data, filter, call);
+  for (size_t i = 0; i < placed.size(); ++i) {
+    const ReadyShape shape({entries[i], placed[i].geometry, placed[i].pose, unit}, impl_->scaledHulls);
+    out[i] = toPublic(data, avbd::nearestClosest(sight, shape.placed, maxDistance));
+  }
+}
+
+void World::pointTests(std::span<const Vec3d> points, std::span<uint8_t> out, const QueryFilter& filter) const {
+  const Path call("World::pointTests"), entries = call / "points";
+  const Range range = symmetric(kMaxPosition * impl_->data.def.lengthUnit);
+  checkCount(call / "out", out.size(), points.size(), "points");
+  for (size_t i = 0; i < points.size(); ++i) check(entries[i], points[i], range);
+  const WorldData& data = fitted(impl_->data, impl_->treeMutex);
+  const Sight sight = sightOf(data, filter, call);
+  for (size_t i = 0; i < points.size(); ++i) out[i] = containsAny(sight, points[i]) ? 1 : 0;
 }
 
 }  // namespace avbd

@@ -64,6 +64,17 @@ TEST(WorldQueries, refuseBadInput) {
   EXPECT_NE(refusal([&] { world.raysClosest(rays, hits); }).find("World::raysClosest.rays[1].direction"),
             std::string::npos);
   EXPECT_EQ(refusal([&] { world.raysAny(rays, flags); }), "World::raysAny.out = 1 values: must be as many as rays: 2");
+  const std::vector<PlacedGeometry> placed{{}, {Sphere{kNan}, {}}};
+  std::vector<NearHit> near(2);
+  EXPECT_NE(
+      refusal([&] { world.nearestOfEach(placed, 1, near); }).find("World::nearestOfEach.placed[1].geometry.radius"),
+      std::string::npos);
+  EXPECT_NE(refusal([&] { world.nearestOfEach({}, -1, {}); }).find("World::nearestOfEach.maxDistance"),
+            std::string::npos);
+  const std::vector<Vec3d> points{{}, {0, kNan, 0}};
+  flags.assign(2, 7);
+  EXPECT_NE(refusal([&] { world.pointTests(points, flags); }).find("World::pointTests.points[1]"), std::string::npos);
+  EXPECT_EQ(flags[0], 7) << "nothing is answered before everything is checked";
 }
 
 TEST(WorldQueries, bulkFormsAnswerAsSingleOnes) {
@@ -79,6 +90,13 @@ TEST(WorldQueries, bulkFormsAnswerAsSingleOnes) {
     casts.push_back({g, pose, random.direction() * 5.0f});
     placed.push_back({g, pose});
   }
+  std::vector<Vec3d> points;
+  for (const PlacedGeometry& p : placed) points.push_back(p.pose.position);
+  std::vector<NearHit> nearHits(100);
+  std::vector<uint8_t> pointFlags(100);
+  worlds.all.nearestOfEach(placed, 0.7f, nearHits, {.triggers = true});
+  worlds.all.pointTests(points, pointFlags, {.triggers = true});
+  int near = 0, held = 0;
   std::vector<CastHit> rayHits(100), castHits(100);
   std::vector<uint8_t> rayFlags(100), overlapFlags(100);
   worlds.all.raysClosest(rays, rayHits);
@@ -91,7 +109,32 @@ TEST(WorldQueries, bulkFormsAnswerAsSingleOnes) {
     EXPECT_EQ(castHits[i].position, worlds.all.castClosest(casts[i]).position);
     EXPECT_EQ(castHits[i].shape, worlds.all.castClosest(casts[i]).shape);
     EXPECT_EQ(overlapFlags[i] != 0, worlds.all.overlapsAny(placed[i].geometry, placed[i].pose));
+    const NearHit one = worlds.all.nearestClosest(placed[i].geometry, placed[i].pose, 0.7f, {.triggers = true});
+    EXPECT_EQ(nearHits[i].shape, one.shape);
+    EXPECT_EQ(nearHits[i].onShape, one.onShape);
+    EXPECT_EQ(pointFlags[i] != 0, !worlds.all.containing(points[i], {.triggers = true}).empty());
+    near += bool(one.shape);
+    held += pointFlags[i];
   }
+  EXPECT_GT(near, 20);
+  EXPECT_GT(held, 2);
+}
+
+/// A scaled hull that no shape of the world has is made at the first question with it, not at each.
+TEST(WorldQueries, scaledHullsAreKept) {
+  QueryRandom random(12);
+  const auto hull = rockHull(random, 60);
+  World world;
+  world.create(BodyDef{.type = BodyType::Static, .shape = Box{}});
+  const auto ask = [&](Vec3 scale) { return world.nearestClosest(Hull{hull, scale}, {{0, 5, 0}, {}}, 20).distance; };
+  const float first = ask({1, 2, 1});
+  const long users = hull.use_count();
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(ask({1, 2, 1}), first);
+  EXPECT_EQ(hull.use_count(), users);
+  // Many scales: what is kept stays bounded, and answers stay right.
+  for (int i = 0; i < 100; ++i) EXPECT_GT(ask({1, 1 + 0.01f * float(i), 1}), ask({1, 1.01f + 0.01f * float(i), 1}));
+  EXPECT_LT(hull.use_count(), 20);
+  EXPECT_EQ(ask({1, 2, 1}), first);
 }
 
 TEST(WorldQueries, filtersAndAccept) {

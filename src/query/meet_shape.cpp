@@ -2,6 +2,7 @@
 #include "query/meet_shape.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "collide/convex.h"
 #include "geom/triangles.h"
@@ -19,10 +20,18 @@ Aabb boundsOf(const SurfaceTriangle& t) {
           {high(t.v[0].x, t.v[1].x, t.v[2].x), high(t.v[0].y, t.v[1].y, t.v[2].y), high(t.v[0].z, t.v[1].z, t.v[2].z)}};
 }
 
-/// The part of a way that has to be cast: from where bounds meet to where they part. Never empty.
+/// The part of a way that has to be cast: from just before bounds meet to where they part. Never empty. Before, because
+/// bounds and surface may coincide there, and floats relative to its begin would show shapes that touch as overlapping.
 struct Piece {
   double begin, length;
-  Piece(const WaySpan& span, double size) : begin(span.begin), length(std::max(span.end - span.begin, size * 1e-6)) {}
+  double slack;  ///< far more than rounding, and than the gap that counts as touching
+
+  /// `from`: from the start to the other shape's position.
+  Piece(const WaySpan& span, const Way& way, Vec3d from, double size) {
+    slack = 1e-6 * (avbd::length(from - way.direction * span.begin) + size);
+    begin = std::max(0.0, span.begin - slack);
+    length = std::max(span.end - begin, size * 1e-6);
+  }
 };
 
 float largest(Vec3 v) { return std::max({v.x, v.y, v.z}); }
@@ -36,21 +45,30 @@ WayHit meetHalfSpace(const Candidate& c, const Placed& placed, const Way& way) {
   const LocalRay ray{plane.pointToLocal(start), plane.toLocal(way.direction), way.length};
   const LocalHit hit = rayShape(c.shape.geom, ray);
   if (!hit || hit.distance > way.length) return {};
-  return {c.slot, kNoElement, hit.distance, start + way.direction * hit.distance, plane.toWorld(hit.normal)};
+  const Vec3d met = start + way.direction * hit.distance;
+  // What starts inside meets the plane at its deepest point's foot.
+  const Vec3d position = hit.distance > 0 ? met : start - n * ray.from.y;
+  return {c.slot, kNoElement, hit.distance, position, plane.toWorld(hit.normal)};
 }
 
 /// Casts a from `start + direction piece.begin` against b, relative to that place: distance along the whole way.
 LocalHit castPiece(const Placed& a, const Placed& b, const Piece& piece, const Way& left, Vec3d& point) {
   const Vec3d start = a.pose.position + left.direction * piece.begin;
-  const double most = (left.length - piece.begin) / piece.length;
+  // A little farther than what is left, so that the touch itself is never beyond: where it is decides below.
+  const double most = (left.length + piece.slack - piece.begin) / piece.length;
   if (!(most >= 0)) return {};
-  const Meeting met =
-      cast(a.geom, {{}, a.pose.rotation}, toFloat(left.direction * piece.length), b.geom,
-           {toFloat(b.pose.position - start), b.pose.rotation}, most < 1 ? static_cast<float>(most) : 1);
+  const NearPose poseA{{}, a.pose.rotation}, poseB{toFloat(b.pose.position - start), b.pose.rotation};
+  const Meeting met = cast(a.geom, poseA, toFloat(left.direction * piece.length), b.geom, poseB,
+                           most < 1 ? static_cast<float>(most) : 1);
   const double distance = piece.begin + static_cast<double>(met.fraction) * piece.length;
   if (!met.meets || distance > left.length) return {};
   point = start + met.point;
-  return {distance, distance > 0 ? unitOf(toDouble(met.normal)) : -left.direction};
+  if (!(distance > 0)) return {distance, -left.direction};
+  if (met.fraction > 0) return {distance, unitOf(toDouble(met.normal))};
+  // A way that grazes the bounds from their begin: the shapes touch there, whatever rounding says about overlap.
+  const Nearest near = nearest(a.geom, poseA, b.geom, poseB, std::numeric_limits<float>::max());
+  point = start + near.pointB;
+  return {distance, unitOf(toDouble(-near.normal))};
 }
 
 /// Against a convex shape: from where its bounds are met, relative to the moving shape there.
@@ -58,9 +76,9 @@ WayHit meetConvex(const Candidate& c, const Placed& placed, const Way& way) {
   const Aabb box = bounds(c.shape.geom, c.pose, 0);
   const WaySpan span = WayAxes(c.whole).meet(box, c.whole.length);
   if (span.begin > span.end) return {};
+  const Piece piece(span, way, c.pose.position - placed.pose.position, largest(box.upper - box.lower));
   WayHit hit;
-  const LocalHit met =
-      castPiece(placed, {c.shape.geom, c.pose}, {span, largest(box.upper - box.lower)}, way, hit.position);
+  const LocalHit met = castPiece(placed, {c.shape.geom, c.pose}, piece, way, hit.position);
   if (!met) return {};
   hit.slot = c.slot;
   hit.distance = met.distance;
@@ -136,7 +154,8 @@ struct TriangleCast {
     // Relative to its first corner, so that floats are fine.
     const Vec3 corners[3] = {{}, t.v[1] - t.v[0], t.v[2] - t.v[0]};
     const Placed triangle{{ShapeType::Triangle, 0, {}, corners}, {toDouble(t.v[0]), {}}};
-    return castPiece(placed, triangle, {span, length(half)}, way, point);
+    const Piece piece(span, way, triangle.pose.position - placed.pose.position, length(half));
+    return castPiece(placed, triangle, piece, way, point);
   }
 };
 
@@ -153,17 +172,25 @@ WayHit placedOnSurface(const Candidate& c, const Placed& placed, const Way& way,
     if (!backFaces && !t.doubleSided && dot(toDouble(t.normal), left.direction) > 0) return fraction;
     Vec3d point;
     const LocalHit hit = cast.meet(t, left, point);
-    if (!hit || (best && hit.distance == best.distance && t.element > element)) return fraction;
+    if (!hit || (best && (hit.distance > best.distance || (hit.distance == best.distance && t.element > element))))
+      return fraction;
     best = hit;
     where = point;
     element = t.element;
-    left.length = hit.distance;
+    // A little farther, so that another one at the same distance is not lost to the rounding of fractions.
+    left.length = std::min(left.length, hit.distance * (1 + 1e-6));
     return std::min(fraction, local.fractionOf(hit.distance));
   };
   forEachTriangleAlong(c.shape.geom, toFloat(local.start), toFloat(local.direction * local.length),
                        local.slack(c.shape.geom, cast.half), visit);
   if (!best) return {};
   return {c.slot, element, best.distance, frame.pointToWorld(where), frame.toWorld(best.normal)};
+}
+
+/// The point of a convex shape's surface that is nearest to a point inside or near it.
+Vec3d surfacePoint(const Candidate& c, Vec3d point) {
+  const NearPose shape{toFloat(c.pose.position - point), c.pose.rotation};
+  return point + nearest(kPoint, {}, c.shape.geom, shape, std::numeric_limits<float>::max()).pointB;
 }
 
 /// A ball's way is its centre's way against the shape grown by its radius.
@@ -173,6 +200,7 @@ WayHit meetBall(const Candidate& c, const Placed& placed, const Way& way, const 
       rayShape(grown, {frame.pointToLocal(placed.pose.position), frame.toLocal(way.direction), way.length});
   if (!hit) return {};
   const Vec3d center = placed.pose.position + way.direction * hit.distance, n = frame.toWorld(hit.normal);
+  if (!(hit.distance > 0)) return {c.slot, kNoElement, 0, surfacePoint(c, center), n};
   return {c.slot, kNoElement, hit.distance, center - n * static_cast<double>(placed.geom.radius), n};
 }
 
@@ -181,7 +209,11 @@ WayHit meetBall(const Candidate& c, const Placed& placed, const Way& way, const 
 WayHit meetRay(const Candidate& c, Vec3d from, const Way& way, bool backFaces) {
   const ShapeGeom& geom = c.shape.geom;
   if (isSurface(geom.type)) return rayOnSurface(c, from, way, backFaces);
-  if (!hasExactRay(geom)) return meetConvex(c, {kPoint, {from, {}}}, way);
+  if (!hasExactRay(geom)) {
+    WayHit hit = meetConvex(c, {kPoint, {from, {}}}, way);
+    if (hit && !(hit.distance > 0)) hit.position = from;
+    return hit;
+  }
   const Frame frame(c.pose);
   const LocalHit hit = rayShape(geom, {frame.pointToLocal(from), frame.toLocal(way.direction), way.length});
   if (!hit) return {};
@@ -197,7 +229,10 @@ WayHit meetPlaced(const Candidate& c, const Placed& placed, const Way& way, bool
     grown.radius += placed.geom.radius;
     if (hasExactRay(grown)) return meetBall(c, placed, way, grown);
   }
-  return meetConvex(c, placed, way);
+  WayHit hit = meetConvex(c, placed, way);
+  // The points of depths of round shapes are less exact than the depths.
+  if (hit && !(hit.distance > 0)) hit.position = surfacePoint(c, hit.position);
+  return hit;
 }
 
 }  // namespace avbd

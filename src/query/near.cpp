@@ -1,6 +1,7 @@
 // Overlaps, nearest points and points inside (query.h).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "collide/convex.h"
 #include "collide/support_nearest.h"
@@ -18,13 +19,17 @@ GapHit gapToHalfSpace(const Pose& plane, const Placed& placed, float reach) {
   const Vec3 deepest = support(placed.geom, toFloat(body.toLocal(-n)));
   const Vec3d lowest = body.pointToWorld(toDouble(deepest)) - n * static_cast<double>(placed.geom.radius);
   const double height = ground.pointToLocal(lowest).y;
-  if (!(height <= static_cast<double>(reach))) return {};
-  return {0, kNoElement, static_cast<float>(height), lowest, lowest - n * height, toFloat(n)};
+  const float distance = static_cast<float>(height);
+  if (!(distance <= reach)) return {};
+  return {0, kNoElement, distance, lowest, lowest - n * height, toFloat(n)};
 }
+
+/// nearest() leaves out what is exactly as far as it is asked for; a query takes it.
+float justBeyond(float reach) { return std::nextafter(reach, std::numeric_limits<float>::infinity()); }
 
 GapHit gapToConvex(const ShapeGeom& geom, const Pose& pose, const Placed& placed, float reach) {
   const Nearest near = nearest(placed.geom, {{}, placed.pose.rotation}, geom,
-                               {toFloat(pose.position - placed.pose.position), pose.rotation}, reach);
+                               {toFloat(pose.position - placed.pose.position), pose.rotation}, justBeyond(reach));
   if (near.apart || near.distance > reach) return {};
   const Vec3d origin = placed.pose.position;
   return {0, kNoElement, near.distance, origin + near.pointA, origin + near.pointB, -near.normal};
@@ -63,14 +68,14 @@ struct OnSurface {
   }
   Nearest gap(const SurfaceTriangle& t, float reach) const {
     const Corners near = corners(t);
-    return nearest(placed.geom, {{}, turn}, near.geom(), {}, reach);
+    return nearest(placed.geom, {{}, turn}, near.geom(), {}, justBeyond(reach));
   }
 
   /// Nearest triangle within reach.
   GapHit closest(float reach) const {
     Nearest best;
     uint32_t element = kNoElement;
-    forEachTriangle(surface, bounds(placed.geom, {at, turn}, reach * (1 + 1e-6f)), [&](const SurfaceTriangle& t) {
+    forEachBareTriangle(surface, bounds(placed.geom, {at, turn}, reach * (1 + 1e-6f)), [&](const SurfaceTriangle& t) {
       const Nearest near = gap(t, reach);
       if (near.apart || near.distance > reach) return true;
       const bool equal = near.distance == best.distance && t.element > element;
@@ -91,7 +96,7 @@ struct OnSurface {
 
   bool touchesAny() const {
     bool touches = false;
-    forEachTriangle(surface, bounds(placed.geom, {at, turn}, 0), [&](const SurfaceTriangle& t) {
+    forEachBareTriangle(surface, bounds(placed.geom, {at, turn}, 0), [&](const SurfaceTriangle& t) {
       const Corners near = corners(t);
       touches = overlap(placed.geom, {{}, turn}, near.geom(), {});
       return !touches;
@@ -140,6 +145,11 @@ bool touches(const Sight& sight, uint32_t slot, const Placed& placed) {
                  {toFloat(pose.position - placed.pose.position), pose.rotation});
 }
 
+bool holds(const Sight& sight, uint32_t slot, Vec3d point) {
+  const ShapeData& shape = sight.data.shapes[slot];
+  return containsPoint(shape.geom, Frame(shapePose(sight.data, shape)).pointToLocal(point));
+}
+
 bool isBefore(const GapHit& a, const GapHit& b) {
   return a.distance < b.distance || (a.distance == b.distance && a.slot < b.slot);
 }
@@ -166,14 +176,19 @@ std::vector<uint32_t> overlapping(const Sight& sight, const Placed& placed) {
 
 std::vector<uint32_t> containing(const Sight& sight, Vec3d point) {
   std::vector<uint32_t> found;
-  const WorldData& data = sight.data;
-  data.tree.query(bounds(ShapeGeom{}, {point, {}}, 0), [&](uint32_t slot) {
-    if (!sight.sees(slot)) return;
-    const ShapeData& shape = data.shapes[slot];
-    if (!containsPoint(shape.geom, Frame(shapePose(data, shape)).pointToLocal(point)) || !sight.accepts(slot)) return;
-    found.push_back(slot);
+  sight.data.tree.query(bounds(ShapeGeom{}, {point, {}}, 0), [&](uint32_t slot) {
+    if (sight.sees(slot) && holds(sight, slot, point) && sight.accepts(slot)) found.push_back(slot);
   });
   std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool containsAny(const Sight& sight, Vec3d point) {
+  bool found = false;
+  sight.data.tree.around(bounds(ShapeGeom{}, {point, {}}, 0), 0, [&](uint32_t slot, float reach) {
+    found = sight.sees(slot) && holds(sight, slot, point) && sight.accepts(slot);
+    return found ? -1 : reach;
+  });
   return found;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "collide/convex.h"
 
@@ -36,7 +37,8 @@ bool inHull(const ShapeGeom& geom, Vec3d p) {
   if (most <= 0) return true;
   if (most > geom.radius) return false;
   const ShapeGeom point{ShapeType::Sphere, 0, {}};
-  const Nearest near = nearest(point, {toFloat(p), {}}, geom, {}, 0);
+  // What is exactly as far as nearest() is asked for is apart to it; here the surface belongs to the hull.
+  const Nearest near = nearest(point, {toFloat(p), {}}, geom, {}, std::numeric_limits<float>::denorm_min());
   return !near.apart && near.distance <= 0;
 }
 

@@ -149,7 +149,9 @@ TEST_P(Queries, nearestAsEachShapeAlone) {
     const NearHit first = worlds_.all.nearestClosest(g, pose, reach, f);
     ASSERT_EQ(bool(first.shape), !expected.empty());
     if (first.shape) {
-      EXPECT_NEAR(first.distance, expected[0].distance, 1e-5f);
+      EXPECT_EQ(first.shape, found[0].shape);
+      EXPECT_EQ(first.distance, found[0].distance);
+      EXPECT_EQ(first.element, found[0].element);
     }
     hits += found.size();
   }

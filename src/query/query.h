@@ -73,6 +73,7 @@ std::vector<WayHit> castAll(const Sight& sight, const Placed& placed, const Way&
 bool overlapsAny(const Sight& sight, const Placed& placed);
 std::vector<uint32_t> overlapping(const Sight& sight, const Placed& placed);  ///< slots, ascending
 std::vector<uint32_t> containing(const Sight& sight, Vec3d point);
+bool containsAny(const Sight& sight, Vec3d point);
 
 GapHit nearestClosest(const Sight& sight, const Placed& placed, float maxDistance);
 std::vector<GapHit> nearestAll(const Sight& sight, const Placed& placed,

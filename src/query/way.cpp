@@ -44,13 +44,17 @@ bool isBefore(const WayHit& a, const WayHit& b) {
   return a.distance < b.distance || (a.distance == b.distance && a.slot < b.slot);
 }
 
+/// Of the distance: what of the way stays to be searched behind a hit, so that another one at the same distance is seen
+/// although rounding put it a little farther. More than a fraction of a way loses as a float.
+constexpr double kTie = 1e-6;
+
 template <class Mover>
 WayHit closest(const Sight& sight, const Mover& mover, const Way& way) {
   WayHit best;
   search(sight, mover, way, [&](const WayHit& hit, double left) {
     if ((best && !isBefore(hit, best)) || !sight.accepts(hit.slot)) return left;
     best = hit;
-    return hit.distance;
+    return std::min(left, hit.distance * (1 + kTie));
   });
   return best;
 }
