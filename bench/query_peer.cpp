@@ -278,6 +278,7 @@ QueryRow compare(const char* name, const Scene& scene, Ours&& ours, Theirs&& the
   std::sort(differences.begin(), differences.end());
   if (!differences.empty()) {
     row.medianDifference = differences[differences.size() / 2];
+    row.highDifference = differences[(differences.size() - 1) * 95 / 100];
     row.largestDifference = differences.back();
   }
 #else

@@ -16,6 +16,7 @@ struct QueryRow {
   size_t differ = 0;             ///< queries of which one found something and the other did not
   double largestDifference = 0;  ///< of distances [m], where both found something
   double medianDifference = 0;
+  double highDifference = 0;  ///< 95 in 100 are no larger
 };
 
 /// A world of this many boxes, balls, capsules and hulls, a quarter each. Dense: they touch each other, as in a pile;

@@ -17,6 +17,8 @@ TEST(QueryPeer, agreesWithBullet) {
       EXPECT_LE(row.differ, 9u);
       // Of overlaps the numbers are compared.
       EXPECT_LT(row.medianDifference, row.query == "box overlap" ? 0.5 : 2e-3);
+      // A few of its rays leave out what they graze and meet what lies behind, so the largest says nothing.
+      EXPECT_LT(row.highDifference, row.query == "box overlap" ? 0.5 : row.query == "ray closest" ? 0.03 : 3e-3);
     }
   }
 }
