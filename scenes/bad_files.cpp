@@ -8,63 +8,72 @@ std::string mjcf(const std::string& inside) { return "<mujoco><worldbody>" + ins
 std::string urdf(const std::string& inside) { return "<robot name=\"r\">" + inside + "</robot>"; }
 
 std::vector<BadFile> badMjcf() {
-  return {{"mjcf", "", "bad.xml"},
-          {"mjcf", "<mujoco", "bad.xml:1"},
-          {"mjcf", "<robot/>", "robot"},
-          {"mjcf", mjcf("<geom size='nan'/>"), "size"},
-          {"mjcf", mjcf("<geom size='-1'/>"), "size"},
-          {"mjcf", mjcf("<geom size='0.1,0.2'/>"), "size"},
-          {"mjcf", mjcf("<geom type='blob' size='1'/>"), "type"},
-          {"mjcf", mjcf("<geom type='mesh' mesh='nobody'/>"), "nobody"},
-          {"mjcf", mjcf("<body pos='1 2'/>"), "pos"},
-          {"mjcf", mjcf("<body quat='0 0 0 0'/>"), "quat"},
-          {"mjcf", mjcf("<body name='a'/><body name='a'/>"), "a"},
-          {"mjcf", mjcf("<body><freejoint/><geom size='1' mass='-3'/></body>"), "mass"},
-          {"mjcf", mjcf("<body><freejoint/><inertial pos='0 0 0' mass='1' diaginertia='1 1 9'/></body>"), "inertia"},
-          {"mjcf", "<mujoco><include file='nowhere.xml'/></mujoco>", "include"}};
+  return {{"mjcf", "", {"bad.xml", "No document element"}},
+          {"mjcf", "<mujoco", {"bad.xml:1", "start element"}},
+          {"mjcf", "<robot/>", {"bad.xml:1: robot", "<mujoco>"}},
+          {"mjcf", mjcf("<geom size='nan'/>"), {"size = \"nan\"", "finite"}},
+          {"mjcf", mjcf("<geom size='-1'/>"), {"size = \"-1\"", "> 0"}},
+          {"mjcf", mjcf("<geom size='0.1,0.2'/>"), {"size = \"0.1,0.2\"", "number"}},
+          {"mjcf", mjcf("<geom type='blob' size='1'/>"), {"type = \"blob\"", "sphere"}},
+          {"mjcf", mjcf("<geom type='mesh' mesh='nobody'/>"), {"mesh = \"nobody\"", "no mesh"}},
+          {"mjcf", mjcf("<body pos='1 2'/>"), {"pos = \"1 2\"", "3 numbers"}},
+          {"mjcf", mjcf("<body quat='0 0 0 0'/>"), {"quat = \"0 0 0 0\"", "zero"}},
+          {"mjcf", mjcf("<body name='a'/><body name='a'/>"), {"name = \"a\"", "another body"}},
+          {"mjcf", mjcf("<body><freejoint/><geom size='1' mass='-3'/></body>"), {"mass = \"-3\"", ">= 0"}},
+          {"mjcf",
+           mjcf("<body><freejoint/><inertial pos='0 0 0' mass='1' diaginertia='1 1 9'/></body>"),
+           {"inertial: inertia", "A + B >= C"}},
+          {"mjcf", "<mujoco><include file='nowhere.xml'/></mujoco>", {"include", "file = \"nowhere.xml\""}}};
 }
 
 std::vector<BadFile> badUrdf() {
   const std::string link = "<link name=\"a\"/>";
-  return {
-      {"urdf", "", "bad.urdf"},
-      {"urdf", "<mujoco/>", "mujoco"},
-      {"urdf", "<robot name=\"r\"/>", "link"},
-      {"urdf", urdf(link + link), "a"},
-      {"urdf", urdf("<link/>"), "name"},
-      {"urdf", urdf(link + "<link name=\"b\"/>"), "root"},
-      {"urdf", urdf(link + "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"z\"/></joint>"), "z"},
-      {"urdf", urdf(link + "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"a\"/></joint>"), "j"},
-      {"urdf",
-       urdf(link +
-            "<link name=\"b\"/><joint name=\"j\" type=\"elastic\"><parent link=\"a\"/><child link=\"b\"/></joint>"),
-       "elastic"},
-      {"urdf", urdf("<link name=\"a\"><collision><geometry><sphere radius=\"nan\"/></geometry></collision></link>"),
-       "radius"},
-      {"urdf", urdf("<link name=\"a\"><collision><geometry><box size=\"1 1\"/></geometry></collision></link>"), "size"},
-      {"urdf", urdf("<link name=\"a\"><collision><geometry><box size=\"1 0 1\"/></geometry></collision></link>"),
-       "size"},
-      {"urdf",
-       urdf("<link name=\"a\"><inertial><mass value=\"NaN\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" "
-            "ixz=\"0\" iyz=\"0\"/></inertial></link>"),
-       "mass"}};
+  const auto joint = [](const char* type, const char* parent, const char* child) {
+    return std::string("<joint name=\"j\" type=\"") + type + "\"><parent link=\"" + parent + "\"/><child link=\"" +
+           child + "\"/></joint>";
+  };
+  const auto collision = [](const char* shape) {
+    return urdf(std::string("<link name=\"a\"><collision><geometry>") + shape + "</geometry></collision></link>");
+  };
+  return {{"urdf", "", {"bad.urdf", "the file is empty"}},
+          {"urdf", "<mujoco/>", {"bad.urdf", "<mujoco>"}},
+          {"urdf", "<robot name=\"r\"/>", {"robot", "link"}},
+          {"urdf", urdf(link + link), {"name = \"a\"", "another link"}},
+          {"urdf", urdf("<link/>"), {"link", "name is missing"}},
+          {"urdf", urdf(link + "<link name=\"b\"/>"), {"\"a\"", "\"b\"", "root"}},
+          {"urdf", urdf(link + joint("fixed", "a", "z")), {"link = \"z\"", "no link"}},
+          {"urdf", urdf(link + joint("fixed", "a", "a")), {"joint \"j\"", "joins link \"a\" to itself"}},
+          {"urdf", urdf(link + "<link name=\"b\"/>" + joint("elastic", "a", "b")), {"type = \"elastic\""}},
+          {"urdf", collision("<sphere radius=\"nan\"/>"), {"radius = \"nan\"", "finite"}},
+          {"urdf", collision("<box size=\"1 1\"/>"), {"size = \"1 1\"", "3 numbers"}},
+          {"urdf", collision("<box size=\"1 0 1\"/>"), {"size = \"1 0 1\"", "> 0"}},
+          {"urdf",
+           urdf("<link name=\"a\"><inertial><mass value=\"NaN\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" "
+                "ixz=\"0\" iyz=\"0\"/></inertial></link>"),
+           {"mass", "value = \"NaN\""}}};
 }
 
 std::vector<BadFile> badMeshes() {
-  return {{"obj", "", "empty"},
-          {"obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "triangle"},
-          {"obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "4"},
-          {"obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "0"},
-          {"obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "nan"},
-          {"obj", "v 0 0\nf 1 1 1\n", "v"},
-          {"obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n", "f"},
-          {"stl", "", "bad.stl"},
-          {"stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "bad.stl"},
-          {"stl", std::string(84, '\0'), "triangle"},
-          {"stl", std::string(80, 'b') + std::string("\xff\xff\xff\x7f", 4) + std::string(50, '\0'), "bad.stl"},
-          {"msh", "", "bad.msh"},
-          {"msh", std::string(8, '\x01'), "bad.msh"},
-          {"msh", std::string(16, '\xff'), "bad.msh"}};
+  const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const std::string manyTriangles("\xff\xff\xff\x7f", 4);
+  return {{"obj", "", {"the file is empty"}},
+          {"obj", three, {"triangles = 0", "at least 1"}},
+          {"obj", three + "f 1 2 4\n", {"bad.obj:4", "f = \"4\"", "1 .. 3"}},
+          {"obj", three + "f 1 2 0\n", {"bad.obj:4", "f = \"0\"", "1 .. 3"}},
+          {"obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", {"bad.obj:2", "v.x = \"nan\"", "finite"}},
+          {"obj", "v 0 0\nf 1 1 1\n", {"bad.obj:1", "v.z is missing"}},
+          {"obj", three + "f 1 2 99999999999999999999\n", {"bad.obj:4", "f = \"99999999999999999999\""}},
+          {"obj", three + "f 1 2\n", {"bad.obj:4", "f has 2 vertices"}},
+          {"stl", "", {"the file is empty"}},
+          {"stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", {"bad.stl:", "ends within a facet"}},
+          {"stl",
+           "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 inf 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
+           {"bad.stl:4", "vertex.y = \"inf\""}},
+          {"stl", std::string(84, '\0'), {"triangles = 0"}},
+          {"stl", std::string(80, 'b') + manyTriangles + std::string(50, '\0'), {"number of triangles = 2147483647"}},
+          {"msh", "", {"the file is empty"}},
+          {"msh", std::string(8, '\x01'), {"size = 8", "16 bytes"}},
+          {"msh", std::string(16, '\xff'), {"4294967295 vertices"}}};
 }
 
 }  // namespace
