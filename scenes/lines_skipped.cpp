@@ -13,9 +13,7 @@ void skip(std::vector<Line>& list, const char* group, std::initializer_list<cons
 std::vector<Line> skippedLines() {
   std::vector<Line> list;
   skip(list, "R", {"bullet"}, "continuous collision is not built yet");
-  skip(list, "J",
-       {"limits", "drive_types", "gear", "rack", "mimic", "pendulum",
-        "double_pendulum"},
+  skip(list, "J", {"limits", "drive_types", "gear", "rack", "mimic", "pendulum", "double_pendulum"},
        "not all of the joints that it needs are built yet");
   skip(list, "J", {"custom"}, "families of the user's own are not built yet");
   skip(list, "J", {"break"}, "joints that break are not built yet");

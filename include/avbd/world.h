@@ -149,9 +149,9 @@ class World {
 
   // Joints.
   JointType type(JointId id) const;
-  BallJoint ballJoint(JointId id) const;    ///< the definition; Error if it is a joint of another type
-  FixedJoint fixedJoint(JointId id) const;  ///< as above
-  TetVolume tetVolume(JointId id) const;    ///< as above; restVolume is the one in use
+  BallJoint ballJoint(JointId id) const;      ///< the definition; Error if it is a joint of another type
+  FixedJoint fixedJoint(JointId id) const;    ///< as above
+  TetVolume tetVolume(JointId id) const;      ///< as above; restVolume is the one in use
   HingeJoint hingeJoint(JointId id) const;    ///< as above
   SliderJoint sliderJoint(JointId id) const;  ///< as above
   D6Joint d6Joint(JointId id) const;          ///< as above
@@ -165,8 +165,8 @@ class World {
   void setDrive(JointId id, JointAxis axis, const JointDrive& drive);
   void setDrive(JointId id, const JointDrive& drive);
   JointReaction reaction(JointId id) const;
-  /// How far the joint is from holding [m]: the distance of the frames' origins, of a slider or D6 joint along its locked
-  /// axes only; |C| [m^3] of a TetVolume.
+  /// How far the joint is from holding [m]: the distance of the frames' origins, of a slider or D6 joint along its
+  /// locked axes only; |C| [m^3] of a TetVolume.
   double gap(JointId id) const;
   /// [rad] between the frames about locked axes; 0 of a BallJoint and a TetVolume.
   double angleError(JointId id) const;
