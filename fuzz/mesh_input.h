@@ -21,7 +21,7 @@ inline void readMeshInput(const uint8_t* data, size_t size, const char* kind) {
   for (const auto& triangle : file.triangles)
     for (const uint32_t corner : triangle) require(corner < file.vertices.size(), "a corner beyond the vertices");
   for (const Vec3 v : file.vertices)
-    require(std::isfinite(v.x + v.y + v.z) || std::isfinite(v.x), "a vertex that is not finite");
+    require(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z), "a vertex that is not finite");
   try {
     makeHull({.points = file.vertices});
   } catch (const Error&) {

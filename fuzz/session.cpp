@@ -7,6 +7,8 @@ namespace avbd::fuzz {
 namespace {
 
 constexpr int kMostCalls = 200;
+/// Where a float has six centimetres left.
+constexpr Vec3d kFarAway{1000003.3, -999.7, -1000001.1};
 
 }  // namespace
 
@@ -25,8 +27,14 @@ Session::Session(Bytes& in, int simdWidth) : in_(in) {
   if (odd & 4) def.krylovIterations = 3;
   if (odd >= 0xf0) def.lengthUnit = odd & 8 ? 0.001f : 1000;
   if (odd >= 0xe0 && odd < 0xf0) def.jointArmBlend = 0.25f * static_cast<float>(odd >> 1 & 3);
+  if (odd < 0xe0 && (odd & 0x20)) offset_ = kFarAway;
   world_ = World(def);
   begin(scene, count);
+}
+
+Pose Session::placePose() {
+  const Vec3d position = place();
+  return {position, in_.rotation()};
 }
 
 uint64_t Session::run() {
@@ -97,6 +105,7 @@ void Session::check() {
   for (const ShapeId id : deadShapes_) require(!world_.isAlive(id), "a dead shape lives");
   for (const JointId id : deadJoints_) require(!world_.isAlive(id), "a dead joint lives");
   checkContacts();
+  checkFound();
   for (const JointId id : joints_) {
     const JointReaction reaction = world_.reaction(id);
     require(isFinite(reaction.force) && isFinite(reaction.torque), "a reaction that is not finite");

@@ -18,9 +18,9 @@ inline bool isFinite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) &
 inline bool isFinite(Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 inline bool isUnit(Vec3 v) { return std::fabs(length(v) - 1) < 1e-3f; }
 
-/// Decodes calls from bytes and makes them in a world that begins as one of a few scenes. After each: a refused call
-/// has changed nothing, what lives and what is dead is as recorded, every body, contact and reaction is finite, and
-/// events tell of what was not so before.
+/// Decodes calls from bytes and makes them in a world that begins as one of a few scenes, at the origin or far from it.
+/// After each: a refused call has changed nothing, what lives and what is dead is as recorded, every body, contact and
+/// reaction is finite, queries find every convex shape where its pose says, and events tell of what was not so before.
 class Session {
  public:
   Session(Bytes& in, int simdWidth);
@@ -34,6 +34,12 @@ class Session {
   void attempt(Call&& call);
   void act();
   void check();
+  Vec3d place() { return in_.position() + offset_; }
+  Pose placePose();
+
+  // session_told.cpp
+  uint64_t told() const;
+  void checkFound() const;
 
   // session_scenes.cpp
   void begin(uint32_t scene, int count);
@@ -83,6 +89,7 @@ class Session {
   // session_step.cpp
   void step();
   void checkEvents();
+  std::set<Pair> follow(std::set<Pair>& now, const std::set<Pair>& begins, const std::set<Pair>& ends);
   void checkTouches();
   void checkVisits();
   void checkContacts() const;
@@ -90,6 +97,7 @@ class Session {
 
   Bytes& in_;
   World world_;
+  Vec3d offset_;  // of all that happens
   std::vector<BodyId> bodies_, deadBodies_;
   std::vector<ShapeId> shapes_, deadShapes_;
   std::vector<JointId> joints_, deadJoints_;

@@ -101,7 +101,7 @@ void Session::checkNear(const NearHit& hit, float most, const QueryFilter& filte
 }
 
 void Session::askRays(const QueryFilter& filter) {
-  const Ray ray{in_.position(), in_.vector(), in_.byte() < 200 ? 100 : in_.number()};
+  const Ray ray{place(), in_.vector(), in_.byte() < 200 ? 100 : in_.number()};
   const CastHit closest = world_.rayClosest(ray, filter);
   const std::vector<CastHit> all = world_.rayAll(ray, filter);
   checkHit(closest, ray.length, filter);
@@ -113,7 +113,7 @@ void Session::askRays(const QueryFilter& filter) {
 }
 
 void Session::askCasts(const QueryFilter& filter) {
-  const ShapeCast cast{in_.byte() < 240 ? convexGeometry() : geometry(), in_.pose(), in_.vector()};
+  const ShapeCast cast{in_.byte() < 240 ? convexGeometry() : geometry(), placePose(), in_.vector()};
   const CastHit closest = world_.castClosest(cast, filter);
   const std::vector<CastHit> all = world_.castAll(cast, filter);
   const double way = length(toDouble(cast.motion));
@@ -127,7 +127,7 @@ void Session::askCasts(const QueryFilter& filter) {
 
 void Session::askPlaces(const QueryFilter& filter) {
   const Geometry placed = in_.byte() < 240 ? convexGeometry() : geometry();
-  const Pose pose = in_.pose();
+  const Pose pose = placePose();
   const float most = in_.positive();
   const std::vector<ShapeId> over = world_.overlaps(placed, pose, filter);
   checkAscending(over);
@@ -147,7 +147,7 @@ void Session::askPlaces(const QueryFilter& filter) {
 /// Bulk forms say what the single ones say.
 void Session::askMany(const QueryFilter& filter) {
   std::array<Ray, 3> rays;
-  for (Ray& ray : rays) ray = {in_.position(), in_.vector(), 50};
+  for (Ray& ray : rays) ray = {place(), in_.vector(), 50};
   const size_t given = in_.byte() < 240 ? rays.size() : 2;
   std::array<CastHit, 3> hits;
   std::array<uint8_t, 3> any{};
@@ -157,12 +157,22 @@ void Session::askMany(const QueryFilter& filter) {
     require(same(hits[i], world_.rayClosest(rays[i], filter)), "a ray among many meets something else");
     require((any[i] == 1) == static_cast<bool>(hits[i]), "any and the closest disagree about a ray");
   }
-  std::array<PlacedGeometry, 2> places{{{convexGeometry(), in_.pose()}, {convexGeometry(), in_.pose()}}};
+  std::array<PlacedGeometry, 2> places{{{convexGeometry(), placePose()}, {convexGeometry(), placePose()}}};
   std::array<uint8_t, 2> overlap{};
   world_.overlapTests(places, overlap, filter);
   for (size_t i = 0; i < places.size(); ++i)
     require((overlap[i] == 1) == world_.overlapsAny(places[i].geometry, places[i].pose, filter),
             "an overlap among many is another");
+  std::array<NearHit, 2> near;
+  world_.nearestOfEach(places, 20, near, filter);
+  const std::array<Vec3d, 2> points{places[0].pose.position, places[1].pose.position};
+  std::array<uint8_t, 2> held{};
+  world_.pointTests(points, held, filter);
+  for (size_t i = 0; i < places.size(); ++i) {
+    require(same(near[i], world_.nearestClosest(places[i].geometry, places[i].pose, 20, filter)),
+            "the nearest of one among many is another");
+    require((held[i] == 1) == !world_.containing(points[i], filter).empty(), "a point among many is elsewhere");
+  }
   std::array<ShapeCast, 2> casts{
       {{places[0].geometry, places[0].pose, {0, -3, 0}}, {places[1].geometry, places[1].pose, {1, -2, 0}}}};
   world_.castsClosest(casts, std::span(hits).first(2), filter);
@@ -193,7 +203,7 @@ void Session::ask() {
 void Session::walk() {
   attempt([&] {
     if (!mover_ || in_.byte() > 240) {
-      MoverDef def{.position = in_.position()};
+      MoverDef def{.position = place()};
       if (in_.byte() > 200) def = {.position = def.position, .radius = in_.number(), .height = in_.number()};
       if (in_.byte() > 220) def.up = in_.vector();
       if (in_.byte() > 220) def.mass = in_.number();

@@ -41,7 +41,7 @@ void Session::changeBody(BodyId body) {
   switch (in_.below(8)) {
     case 0:
     case 1:
-      return world_.setPose(body, in_.pose());
+      return world_.setPose(body, placePose());
     case 2:
       return world_.setVelocity(body, {in_.vector(), in_.vector()});
     case 3:
@@ -96,13 +96,13 @@ void Session::push(BodyId body) {
         return world_.addForce(body, in_.vector());
       case 1: {
         const Vec3 force = in_.vector();
-        return world_.addForceAt(body, force, in_.position());
+        return world_.addForceAt(body, force, place());
       }
       case 2:
         return world_.addTorque(body, in_.vector());
       case 3: {
         const Vec3 impulse = in_.vector();
-        return world_.addImpulseAt(body, impulse, in_.position());
+        return world_.addImpulseAt(body, impulse, place());
       }
       case 4:
         return world_.addImpulse(body, in_.vector() * 1e3f);

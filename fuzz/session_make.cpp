@@ -153,12 +153,20 @@ void Session::makeJoint() {
     const BodyId a = anyBody(), b = anyBody();
     const bool collide = in_.flag();
     if (joints_.size() >= kMostJoints) return;
-    switch (in_.below(4)) {
+    // The world's frame is a world pose.
+    const auto frame = [&](BodyId body) { return body ? in_.pose() : placePose(); };
+    const uint32_t kind = in_.below(4);
+    Pose frameA, frameB;
+    if (kind < 2) {
+      frameA = frame(a);
+      frameB = frame(b);
+    }
+    switch (kind) {
       case 0:
-        joints_.push_back(world_.create(BallJoint{a, b, in_.pose(), in_.pose(), collide, 0}));
+        joints_.push_back(world_.create(BallJoint{a, b, frameA, frameB, collide, 0}));
         return;
       case 1:
-        joints_.push_back(world_.create(FixedJoint{a, b, in_.pose(), in_.pose(), collide, 0}));
+        joints_.push_back(world_.create(FixedJoint{a, b, frameA, frameB, collide, 0}));
         return;
       case 2:  // where they are: strains nothing
         if (!a || !b) return;

@@ -5,7 +5,9 @@
 namespace avbd::fuzz {
 
 void Session::add(const BodyDef& def) {
-  bodies_.push_back(world_.create(def));
+  BodyDef placed = def;
+  placed.position = def.position + offset_;
+  bodies_.push_back(world_.create(placed));
   for (const ShapeId shape : world_.shapes(bodies_.back())) shapes_.push_back(shape);
 }
 
@@ -43,7 +45,7 @@ void Session::chain(int count) {
   for (int i = 0; i < count; ++i) {
     add({.position = {0.5 + i, 5, 0},
          .shape = i % 2 ? Geometry{Capsule{0.2f, 0.2f}} : Geometry{Box{0.4f, 0.2f, 0.2f}}});
-    const Pose frameA{i ? Vec3d{0.5, 0, 0} : Vec3d{0, 5, 0}, {}}, frameB{{-0.5, 0, 0}, {}};
+    const Pose frameA{i ? Vec3d{0.5, 0, 0} : offset_ + Vec3d{0, 5, 0}, {}}, frameB{{-0.5, 0, 0}, {}};
     if (i % 3 == 2)
       joints_.push_back(world_.create(FixedJoint{last, bodies_.back(), frameA, frameB}));
     else

@@ -49,43 +49,59 @@ void Session::checkEvents() {
   }
 }
 
-/// Begins and ends alternate for each pair, and what carries force has begun.
+/// Begins and ends alternate for each pair, also where both are in one step. `now`: pairs that have begun and not
+/// ended; returns those that were so at any time of the step.
+std::set<Session::Pair> Session::follow(std::set<Pair>& now, const std::set<Pair>& begins, const std::set<Pair>& ends) {
+  std::set<Pair> ever = now;
+  ever.insert(begins.begin(), begins.end());
+  for (const Pair& pair : ends) require(ever.count(pair) == 1, "an end without a begin");
+  for (const Pair& pair : begins) require(now.count(pair) == 0 || ends.count(pair) == 1, "a second begin");
+  const std::set<Pair> before = now;
+  for (const Pair& pair : ends) now.erase(pair);
+  for (const Pair& pair : begins)
+    if (before.count(pair) == ends.count(pair)) now.insert(pair);
+  for (const Pair& pair : now)
+    require(world_.isAlive(pair.first) && world_.isAlive(pair.second), "a dead shape goes on");
+  return ever;
+}
+
+/// What carries force has begun.
 void Session::checkTouches() {
   const Events& events = world_.events();
+  std::set<Pair> begins, ends;
   for (const TouchEvent& e : events.ends) {
     require(everLived(e.shapeA) && everLived(e.shapeB), "an end of a shape that never was");
-    require(touching_.erase({e.shapeA, e.shapeB}) == 1, "an end without a begin");
+    require(ends.insert({e.shapeA, e.shapeB}).second, "two ends of one pair");
   }
   for (const TouchEvent& e : events.begins) {
     require(world_.isAlive(e.shapeA) && world_.isAlive(e.shapeB), "a begin of a dead shape");
     require(world_.body(e.shapeA) == e.bodyA && world_.body(e.shapeB) == e.bodyB, "a begin of other bodies");
     require(!silent_.count(e.shapeA) && !silent_.count(e.shapeB), "a begin that nobody asked for");
-    require(touching_.insert({e.shapeA, e.shapeB}).second, "a second begin");
+    require(begins.insert({e.shapeA, e.shapeB}).second, "two begins of one pair");
   }
-  for (const Pair& pair : touching_)
-    require(world_.isAlive(pair.first) && world_.isAlive(pair.second), "a dead shape still touches");
+  const std::set<Pair> touched = follow(touching_, begins, ends);
   for (const Contact& contact : world_.contacts()) {
     bool carries = false;
     for (int i = 0; i < contact.pointCount; ++i)
       carries = carries || contact.points[static_cast<size_t>(i)].normalForce > 0;
     if (!carries || silent_.count(contact.shapeA) || silent_.count(contact.shapeB)) continue;
-    require(touching_.count({contact.shapeA, contact.shapeB}) == 1, "a contact that never began");
+    require(touched.count({contact.shapeA, contact.shapeB}) == 1, "a contact that never began");
   }
 }
 
 void Session::checkVisits() {
   const Events& events = world_.events();
+  std::set<Pair> enters, leaves;
   for (const TriggerEvent& e : events.leaves) {
     require(everLived(e.trigger) && everLived(e.visitor), "a leave of a shape that never was");
-    require(visiting_.erase({e.trigger, e.visitor}) == 1, "a leave without an enter");
+    require(leaves.insert({e.trigger, e.visitor}).second, "two leaves of one pair");
   }
   for (const TriggerEvent& e : events.enters) {
     require(world_.isAlive(e.trigger) && world_.isAlive(e.visitor), "an enter of a dead shape");
     require(world_.isTrigger(e.trigger), "an enter into what is no trigger");
-    require(visiting_.insert({e.trigger, e.visitor}).second, "a second enter");
+    require(enters.insert({e.trigger, e.visitor}).second, "two enters of one pair");
   }
-  for (const Pair& pair : visiting_)
-    require(world_.isAlive(pair.first) && world_.isAlive(pair.second), "a dead shape still visits");
+  follow(visiting_, enters, leaves);
 }
 
 void Session::checkContacts() const {
