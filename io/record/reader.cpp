@@ -314,6 +314,7 @@ bool RecordReader::refresh() {
     searched_ = contentSearched_;
   }
   info_.finished = indexLast_ = false;
+  loaded_ = SIZE_MAX;  // bodies may come that its frames do not fit
   try {
     scan();
   } catch (const FileError&) {

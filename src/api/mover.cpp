@@ -99,7 +99,10 @@ void Mover::walk(Walk& walk, Vec3 motion) const {
 void Mover::move(World& world, Vec3 velocity, float dt) {
   const Path path("Mover::move");
   check(path / "velocity", velocity, symmetric(kMaxSpeed * static_cast<double>(world.definition().lengthUnit)));
-  if (!(dt > 0 && dt <= 1)) (path / "dt").refuse(toText(dt), "must be finite and > 0 and at most 1");
+  // As short as a world's substep: its inverse is still a number.
+  if (!(dt >= kMinSubstep && dt <= 1)) {
+    (path / "dt").refuse(toText(dt), "must be at least " + toText(kMinSubstep) + " and at most 1");
+  }
   // Everything that can throw comes first; what it comes to is set last.
   const Ride carried = ride(world);
   Walk steps(world, *this, pose().position);

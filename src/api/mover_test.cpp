@@ -121,6 +121,7 @@ TEST(Mover, meetsNothingThatItsFilterLeavesOut) {
   Mover mover({.filter = {.ignore = wall}});
   const Vec3d before = mover.position();
   EXPECT_THROW(mover.move(world, {1, 0, 0}, kStep), Error) << "a dead body";
+  EXPECT_THROW(mover.move(world, {1, 0, 0}, 1e-38f), Error) << "a step whose inverse is no number";
   EXPECT_EQ(mover.position(), before);
 }
 
