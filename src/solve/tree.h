@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solve/batch.h"
+#include "solve/scalar_joint.h"
 
 namespace avbd {
 
@@ -39,10 +40,10 @@ struct TreeJoint : TreeRows<6> {
 
 /// A scalar joint in a tree: exact rows, and elastic ones, which enter as multipliers too: S gets 1/k on its diagonal,
 /// so that a stiff spring costs no digits.
-struct MixedRows : TreeRows<18> {
-  uint32_t scalar = 0;   ///< in BatchView::scalar
-  float* lambda[18];     ///< of exact rows; null of elastic ones
-  float compliance[18];  ///< 1/k of elastic rows; 0 of exact ones
+struct MixedRows : TreeRows<kScalarRows> {
+  uint32_t scalar = 0;            ///< in BatchView::scalar
+  float* lambda[kScalarRows];     ///< of exact rows; null of elastic ones
+  float compliance[kScalarRows];  ///< 1/k of elastic rows; 0 of exact ones
 };
 
 struct TreeNode {
