@@ -69,20 +69,21 @@ JointMotion motionOf(const WorldData& data, uint32_t slot) {
   return motion;
 }
 
-double lockedGap(const WorldData& data, uint32_t joint) {
+namespace {
+
+/// Of the three coordinates from `first` on: how far the locked ones are from zero.
+double lockedSize(const WorldData& data, uint32_t joint, int first) {
   const JointMotion motion = motionOf(data, joint);
   double squares = 0;
-  for (int i = 0; i < 3; ++i)
+  for (int i = first; i < first + 3; ++i)
     if (data.d6[joint].axis[i].motion == AxisMotion::Locked) squares += motion.position[i] * motion.position[i];
   return std::sqrt(squares);
 }
 
-double lockedAngle(const WorldData& data, uint32_t joint) {
-  const JointMotion motion = motionOf(data, joint);
-  double squares = 0;
-  for (int i = 3; i < 6; ++i)
-    if (data.d6[joint].axis[i].motion == AxisMotion::Locked) squares += motion.position[i] * motion.position[i];
-  return std::sqrt(squares);
-}
+}  // namespace
+
+double lockedGap(const WorldData& data, uint32_t joint) { return lockedSize(data, joint, 0); }
+
+double lockedAngle(const WorldData& data, uint32_t joint) { return lockedSize(data, joint, 3); }
 
 }  // namespace avbd
