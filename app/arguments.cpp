@@ -37,6 +37,11 @@ void addUrdf(CLI::App& command, UrdfArguments& a) {
   constexpr const char* kUrdf = "URDF";
   command.add_flag("--floating", a.floating, "the robot is not fixed: it stands free on a ground below it")
       ->group(kUrdf);
+  command.add_flag("--limp", a.limp, "nothing holds the joints, and their actuators are forces")->group(kUrdf);
+  command
+      .add_flag_callback(
+          "--no-self-collision", [&a] { a.selfCollision = false; }, "links of the robot do not collide with each other")
+      ->group(kUrdf);
   command
       .add_option("--package", a.packages,
                   "NAME=DIR: where package://NAME lies; DIR: where packages lie; may be given often")
@@ -68,6 +73,7 @@ CLI::App* addRun(CLI::App& app, RunArguments& a, std::string& solver) {
   run->add_option("--html", a.html, "write a page that plays the run");
   run->add_option("--poses", a.poses, "write poses of body frames as CSV, in the file's world frame");
   run->add_option("--fps", a.fps, "row sets of the CSV, and frames of the recording, per simulated second [60]");
+  run->add_option("--control", a.control, "CSV of time, actuator, value: what actuators are given; values hold");
   run->add_option("--record", a.record, "write a recording, which play, convert and info read");
   run->add_flag("--live", a.live, "serve a page that shows the run as it happens");
   addPort(*run, a.port);

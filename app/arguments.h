@@ -12,7 +12,8 @@ namespace avbd::cli {
 
 /// For URDF files only.
 struct UrdfArguments {
-  bool floating = false;
+  bool floating = false, limp = false;
+  bool selfCollision = true;
   std::vector<std::string> packages;  ///< NAME=DIR, or DIR that holds packages
   bool skipBadMeshes = false, decompose = false, collideVisuals = false;
   std::optional<std::string> hullCache;  ///< folder; not set: the user's usual one
@@ -27,6 +28,7 @@ struct RunArguments {
   std::string html, poses;         ///< files to write; empty: none
   double fps = 60;                 ///< row sets of `poses` and frames of `record` per second of simulated time
   std::string record;              ///< recording to write; empty: none
+  std::string control;             ///< control values over time to read; empty: none
   bool live = false;               ///< serve the page while it runs
   int port = kLivePort;            ///< of `live`
   std::optional<std::string> keyframe;

@@ -22,7 +22,9 @@ struct RunFigures {
   double msMedian = 0, msP95 = 0;
   double realtimeFactor = 0;  ///< simulated time over the time of the steps
   double penetrationMax = 0, penetrationMean = 0;
-  double jointGapMax = 0;
+  double jointGapMax = 0;                              ///< [m]
+  double jointAngleMax = 0;                            ///< [rad] about locked axes
+  double limitExcessMax = 0, limitExcessAngleMax = 0;  ///< [m], [rad] of coordinates beyond their limits
   double kineticEnergy = 0;
   bool finite = true;
   uint64_t hash = 0;

@@ -15,7 +15,7 @@ constexpr const char* kRobot = R"(<mujoco model="robot"><option timestep="0.01" 
   <asset><mesh name="tetra" vertex="0 0 0 2 0 0 0 1 0 0 0 3"/></asset><worldbody><geom type="plane" size="1 1 1"/>
   <body name="a" pos="10 0 0"><freejoint/><geom size=".5" mass="2" rgba="1 0 0 1"/><geom type="box" size="1 2 3" mass="3"/>
     <body pos="0 0 1"><joint type="ball"/><geom type="mesh" mesh="tetra" mass="1"/></body></body>
-  <body mocap="true" pos="0 0 -1"/></worldbody><actuator/><keyframe><key name="home"/></keyframe></mujoco>)";
+  <body mocap="true" pos="0 0 -1"/></worldbody><sensor/><keyframe><key name="home"/></keyframe></mujoco>)";
 
 void expectRefused(const std::vector<std::string>& args, const std::vector<std::string>& words) {
   const Invoked run = invoke(args);
@@ -34,7 +34,7 @@ TEST(InfoCommand, AModel) {
   EXPECT_EQ(text.status, 0) << text.err;
   EXPECT_EQ(text.err, "");
   for (const char* part : {"robot", "2 dynamic, 1 kinematic, 1 static", "4: 1 sphere, 1 box, 1 half_space, 1 hull",
-                           "1: 1 ball", "6 kg", "0.01 s", "0, 0, -5", "home", "actuator: ignored"}) {
+                           "1: 1 ball", "6 kg", "0.01 s", "0, 0, -5", "home", "sensor: ignored"}) {
     EXPECT_NE(text.out.find(part), std::string::npos) << part << "\n" << text.out;
   }
   const Json json = Json::parse(invoke({"info", file, "--json"}).out);
@@ -53,6 +53,39 @@ TEST(InfoCommand, AModel) {
   }
   EXPECT_EQ(json["keyframes"], Json::array({"home"}));
   EXPECT_FALSE(json["notes"].empty());
+}
+
+TEST(InfoCommand, JointsAndActuators) {
+  const std::string inertial =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
+  const TestFolder folder;
+  const std::string file = folder.write(
+      "arm.urdf",
+      "<robot name='arm'><link name='base'/><link name='a'>" + inertial + "</link><link name='b'>" + inertial +
+          "</link><joint name='lift' type='prismatic'><parent link='base'/><child link='a'/>"
+          "<axis xyz='0 0 1'/><limit lower='0.2' upper='0.5' effort='90' velocity='2'/></joint>"
+          "<joint name='turn' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint>"
+          "<transmission name='t'><joint name='turn'/><actuator name='motor'><mechanicalReduction>30"
+          "</mechanicalReduction></actuator></transmission></robot>");
+  const Invoked text = invoke({"info", file});
+  ASSERT_EQ(text.status, 0) << text.err;
+  for (const char* part : {"lift: slider, 0.2 .. 0.5 m, at most 2 m/s, at 0.2", "turn: hinge, no limits, at 0",
+                           "motor of turn: force, gain 1, gear 30", "lift: position, stiffness ",
+                           "at most 90, control 0.2 .. 0.5", "1 hinge, 1 slider"}) {
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << "\n" << text.out;
+  }
+  const Json json = Json::parse(invoke({"info", file, "--json"}).out);
+  ASSERT_EQ(json["coordinates"].size(), 2u);
+  EXPECT_EQ(json["coordinates"][0]["name"], "lift");
+  EXPECT_EQ(json["coordinates"][0]["joint"], "slider");
+  EXPECT_EQ(json["coordinates"][0]["unit"], "m");
+  EXPECT_NEAR(json["coordinates"][0]["upper"].get<double>(), 0.5, 1e-6);
+  EXPECT_TRUE(json["coordinates"][1]["upper"].is_null());
+  ASSERT_EQ(json["actuators"].size(), 2u);
+  EXPECT_EQ(json["actuators"][0]["coordinate"], "turn");
+  EXPECT_TRUE(json["actuators"][0]["max_force"].is_null());
+  EXPECT_EQ(json["actuators"][1]["name"], "lift");
+  EXPECT_EQ(json["actuators"][1]["max_force"], 90);
 }
 
 TEST(InfoCommand, AWorldOfNothingButAPlaneHasNoBounds) {

@@ -2,6 +2,7 @@
 #include "app/info_figures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "app/number_text.h"
@@ -12,7 +13,8 @@ namespace {
 constexpr const char* kShapeNames[] = {"sphere", "capsule",   "box",  "half_space", "cylinder",
                                        "cone",   "ellipsoid", "hull", "mesh",       "height_field"};
 static_assert(std::size(kShapeNames) == kShapeKinds);
-constexpr const char* kJointNames[] = {"ball", "fixed", "tet_volume"};
+constexpr const char* kJointNames[] = {"ball", "fixed",    "tet_volume", "hinge",    "slider",
+                                       "d6",   "distance", "pulley",     "coupling", "custom"};
 static_assert(std::size(kJointNames) == kJointKinds);
 
 // How far a shape reaches along a direction of its own frame: the largest d . p.
@@ -93,6 +95,83 @@ std::string countsText(const Counts& counts, const char* (*name)(size_t)) {
   return std::to_string(total) + text;
 }
 
+D6Axis axisOf(const World& world, const NamedJoint& joint) {
+  const auto free = [](const auto& def) {
+    D6Axis axis;
+    axis.limit = def.limit;
+    axis.maxVelocity = def.maxVelocity;
+    return axis;
+  };
+  switch (world.type(joint.id)) {
+    case JointType::Hinge:
+      return free(world.hingeJoint(joint.id));
+    case JointType::Slider:
+      return free(world.sliderJoint(joint.id));
+    case JointType::D6:
+      return world.d6Joint(joint.id).axes[static_cast<size_t>(joint.axis)];
+    default:
+      return {};
+  }
+}
+
+bool hasCoordinates(const World& world, JointId id) {
+  const JointType type = world.type(id);
+  return type == JointType::Hinge || type == JointType::Slider || type == JointType::D6;
+}
+
+CoordinateInfo infoOf(const World& world, const NamedJoint& joint) {
+  CoordinateInfo info;
+  info.name = joint.name;
+  info.joint = jointKindName(static_cast<size_t>(world.type(joint.id)));
+  info.isAngle = joint.axis >= JointAxis::Twist;
+  const auto toFile = [&](double ours) { return joint.sign * ours + joint.offset; };
+  const D6Axis axis = axisOf(world, joint);
+  if (hasCoordinates(world, joint.id)) info.position = toFile(world.coordinate(joint.id, joint.axis).position);
+  info.lower = toFile(static_cast<double>(joint.sign < 0 ? axis.limit.upper : axis.limit.lower));
+  info.upper = toFile(static_cast<double>(joint.sign < 0 ? axis.limit.lower : axis.limit.upper));
+  info.maxVelocity = static_cast<double>(axis.maxVelocity);
+  return info;
+}
+
+std::string coordinateText(const CoordinateInfo& c) {
+  const std::string unit = c.isAngle ? " rad" : " m";
+  std::string text = c.name + ": " + c.joint + ", ";
+  const bool bounded = std::isfinite(c.lower) || std::isfinite(c.upper);
+  text += bounded ? digits(c.lower, 5) + " .. " + digits(c.upper, 5) + unit : "no limits";
+  if (std::isfinite(c.maxVelocity)) text += ", at most " + digits(c.maxVelocity, 5) + unit + "/s";
+  return text + ", at " + digits(c.position, 5);
+}
+
+// Of the three usual kinds the law in words, else its numbers.
+std::string lawText(const Actuator& a) {
+  const auto [constant, stiffness, damping] = a.bias;
+  if (constant == 0 && stiffness == 0 && damping == 0) return "force, gain " + digits(a.gain, 5);
+  if (constant == 0 && stiffness == -a.gain) {
+    return "position, stiffness " + digits(a.gain, 5) + ", damping " + digits(-damping, 5);
+  }
+  if (constant == 0 && stiffness == 0 && damping == -a.gain) return "velocity, gain " + digits(a.gain, 5);
+  return "gain " + digits(a.gain, 5) + ", bias " + digits(constant, 5) + " " + digits(stiffness, 5) + " " +
+         digits(damping, 5);
+}
+
+std::string actuatorText(const Actuator& a, const std::string& moved) {
+  std::string text = a.name + (moved.empty() || moved == a.name ? "" : " of " + moved) + ": " + lawText(a);
+  if (a.gear != 1) text += ", gear " + digits(a.gear, 5);
+  if (std::isfinite(a.maxForce)) text += ", at most " + digits(a.maxForce, 5);
+  if (a.controlRange) {
+    text += ", control " + digits((*a.controlRange)[0], 5) + " .. " + digits((*a.controlRange)[1], 5);
+  }
+  return text;
+}
+
+std::string movedBy(const Model& model, const Actuator& actuator) {
+  for (const NamedJoint& joint : model.joints) {
+    const bool coupling = model.world.type(actuator.joint) == JointType::Coupling;
+    if (joint.id == actuator.joint && (coupling || joint.axis == actuator.axis)) return joint.name;
+  }
+  return {};
+}
+
 }  // namespace
 
 const char* shapeKindName(size_t kind) { return kShapeNames[kind]; }
@@ -122,6 +201,9 @@ ModelInfo infoOf(const Model& model) {
     }
   }
   for (const JointId joint : world.joints()) ++info.joints[static_cast<size_t>(world.type(joint))];
+  for (const NamedJoint& joint : model.joints) info.coordinates.push_back(infoOf(world, joint));
+  info.actuators = model.actuators;
+  for (const Actuator& actuator : model.actuators) info.moved.push_back(movedBy(model, actuator));
   return info;
 }
 
@@ -145,6 +227,10 @@ ReportLines reportLines(const ModelInfo& info) {
   std::string keys;
   for (const std::string& key : info.keyframes) keys += (keys.empty() ? "" : ", ") + key;
   lines.emplace_back("keyframes", keys.empty() ? "none" : keys);
+  for (const CoordinateInfo& coordinate : info.coordinates) lines.emplace_back("joint", coordinateText(coordinate));
+  for (size_t i = 0; i < info.actuators.size(); ++i) {
+    lines.emplace_back("actuator", actuatorText(info.actuators[i], info.moved[i]));
+  }
   for (const std::string& note : info.notes) lines.emplace_back("note", note);
   return lines;
 }

@@ -12,7 +12,7 @@
 namespace avbd::cli {
 
 inline constexpr size_t kShapeKinds = std::variant_size_v<Geometry>;
-inline constexpr size_t kJointKinds = 3;
+inline constexpr size_t kJointKinds = 10;
 /// As in Geometry and JointType.
 const char* shapeKindName(size_t kind);
 const char* jointKindName(size_t kind);
@@ -20,6 +20,15 @@ const char* jointKindName(size_t kind);
 struct Bounds {
   Vec3d lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};
   bool empty() const { return lower.x > upper.x; }
+};
+
+/// A coordinate of a joint, in the file's terms.
+struct CoordinateInfo {
+  std::string name, joint;  ///< joint: its kind
+  bool isAngle = false;     ///< else a length
+  double position = 0;
+  double lower = 0, upper = 0;  ///< infinite: no limit
+  double maxVelocity = 0;       ///< infinite: no limit
 };
 
 struct ModelInfo {
@@ -34,6 +43,9 @@ struct ModelInfo {
   double dt = 0;
   Vec3 gravity, up;
   std::vector<std::string> keyframes, notes;
+  std::vector<CoordinateInfo> coordinates;
+  std::vector<Actuator> actuators;
+  std::vector<std::string> moved;  ///< by actuator: the name of the coordinate; empty where it has none
 };
 
 ModelInfo infoOf(const Model& model);

@@ -1,6 +1,7 @@
 // The only place that knows the JSON library.
 #include "app/json_text.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace avbd::cli {
@@ -13,6 +14,37 @@ std::string text(const Json& json) { return json.dump(-1, ' ', false, Json::erro
 
 Json boundsJson(const Bounds& bounds, Vec3d corner) {
   return bounds.empty() ? Json() : Json::array({corner.x, corner.y, corner.z});
+}
+
+// JSON has no infinity.
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json coordinatesJson(const ModelInfo& info) {
+  Json out = Json::array();
+  for (const CoordinateInfo& c : info.coordinates) {
+    out.push_back({{"name", c.name},
+                   {"joint", c.joint},
+                   {"unit", c.isAngle ? "rad" : "m"},
+                   {"position", c.position},
+                   {"lower", finite(c.lower)},
+                   {"upper", finite(c.upper)},
+                   {"max_velocity", finite(c.maxVelocity)}});
+  }
+  return out;
+}
+
+Json actuatorsJson(const ModelInfo& info) {
+  Json out = Json::array();
+  for (size_t i = 0; i < info.actuators.size(); ++i) {
+    const Actuator& a = info.actuators[i];
+    Json json{{"name", a.name}, {"coordinate", info.moved[i]}, {"gear", a.gear}, {"gain", a.gain}, {"bias", a.bias}};
+    json["max_force"] = finite(a.maxForce);
+    json["control"] = a.control;
+    json["control_range"] =
+        a.controlRange ? Json::array({finite((*a.controlRange)[0]), finite((*a.controlRange)[1])}) : Json();
+    out.push_back(std::move(json));
+  }
+  return out;
 }
 
 }  // namespace
@@ -33,6 +65,9 @@ std::string jsonText(const RunFigures& f) {
                {"penetration_max", f.penetrationMax},
                {"penetration_mean", f.penetrationMean},
                {"joint_gap_max", f.jointGapMax},
+               {"joint_angle_max", f.jointAngleMax},
+               {"limit_excess_max", f.limitExcessMax},
+               {"limit_excess_angle_max", f.limitExcessAngleMax},
                {"kinetic_energy", f.kineticEnergy},
                {"finite", f.finite},
                {"hash", hashText(f.hash)}});
@@ -90,6 +125,8 @@ std::string jsonText(const ModelInfo& info) {
                {"gravity", Json::array({info.gravity.x, info.gravity.y, info.gravity.z})},
                {"up", Json::array({info.up.x, info.up.y, info.up.z})},
                {"keyframes", info.keyframes},
+               {"coordinates", coordinatesJson(info)},
+               {"actuators", actuatorsJson(info)},
                {"notes", info.notes}});
 }
 

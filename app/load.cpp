@@ -49,6 +49,8 @@ bool isUrdf(const std::string& file) {
 
 void refuseUrdfOptions(const UrdfArguments& a, const std::string& scene) {
   const char* given = a.floating            ? "--floating"
+                      : a.limp              ? "--limp"
+                      : !a.selfCollision    ? "--no-self-collision"
                       : !a.packages.empty() ? "--package"
                       : a.skipBadMeshes     ? "--skip-bad-meshes"
                       : a.decompose         ? "--decompose"
@@ -76,6 +78,8 @@ Model loadUrdf(const RunArguments& a) {
   options.world = scenes::apply(a.settings);
   options.floating = a.urdf.floating;
   if (a.urdf.floating) options.ground = 0;
+  options.limp = a.urdf.limp;
+  options.selfCollision = a.urdf.selfCollision;
   options.badMesh = a.urdf.skipBadMeshes ? BadMesh::Note : BadMesh::Refuse;
   options.decompose = a.urdf.decompose;
   if (a.urdf.decompose) options.hullCache = a.urdf.hullCache ? fs::path(*a.urdf.hullCache) : usualHullCache();
@@ -102,7 +106,9 @@ Model loadModel(const RunArguments& a) {
   if (const scenes::Scene* scene = scenes::find(a.scene)) {
     if (a.keyframe) throw BadInput("--keyframe " + *a.keyframe + ": scene " + a.scene + " has no keyframes");
     refuseUrdfOptions(a.urdf, "scene " + a.scene);
-    return scene->make(a.settings);
+    Model model = scene->make(a.settings);
+    model.before = scene->before;
+    return model;
   }
   if (!looksLikeFile(a.scene)) sceneNamed(a.scene);
   if (isUrdf(a.scene)) return loadUrdf(a);

@@ -104,6 +104,9 @@ void Outputs::refuseSame(const RunArguments& a) const {
   std::error_code none;
   for (const std::string& file : {a.poses, a.html, a.record})
     if (!file.empty() && fs::equivalent(file, a.scene, none)) throw BadInput(file + ": is the scene itself");
+  for (const std::string& file : {a.poses, a.html, a.record})
+    if (!file.empty() && !a.control.empty() && fs::equivalent(file, a.control, none))
+      throw BadInput(file + ": is the file of --control");
   if (a.record.empty()) return;
   const fs::path target = fs::weakly_canonical(a.record, none);
   if ((csvFile_ && csvFile_->target() == target) || (pageFile_ && pageFile_->target() == target))

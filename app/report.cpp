@@ -17,6 +17,8 @@ std::string vectorText(Vec3d v) { return number(v.x) + ", " + number(v.y) + ", "
 
 std::string millimetres(double metres) { return number(metres * 1e3) + " mm"; }
 
+std::string milliradians(double radians) { return number(radians * 1e3) + " mrad"; }
+
 std::string percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f %%", share * 100);
@@ -66,7 +68,8 @@ ReportLines reportLines(const RunFigures& f) {
       {"realtime factor", number(f.realtimeFactor)},
       {"stages", stagesText(f)},
       {"penetration", millimetres(f.penetrationMax) + " max, " + millimetres(f.penetrationMean) + " mean"},
-      {"joint gap", millimetres(f.jointGapMax) + " max"},
+      {"joint gap", millimetres(f.jointGapMax) + ", " + milliradians(f.jointAngleMax) + " max"},
+      {"beyond limits", millimetres(f.limitExcessMax) + ", " + milliradians(f.limitExcessAngleMax) + " max"},
       {"kinetic energy", number(f.kineticEnergy) + " J"},
       {"momentum", vectorText(f.momentum) + " kg m/s"},
       {"angular momentum", vectorText(f.angularMomentum) + " kg m^2/s"},

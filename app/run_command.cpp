@@ -11,6 +11,7 @@
 
 #include "app/command_line.h"
 #include "app/commands.h"
+#include "app/control_script.h"
 #include "app/failure.h"
 #include "app/figures.h"
 #include "app/json_text.h"
@@ -25,6 +26,7 @@ namespace {
 double timedStep(Model& model, int64_t step, double dt) {
   using Clock = std::chrono::steady_clock;
   try {
+    if (model.before) model.before(model, step - 1);
     const auto before = Clock::now();
     model.world.step(static_cast<float>(dt));
     return std::chrono::duration<double>(Clock::now() - before).count();
@@ -104,6 +106,8 @@ int runCommand(const RunArguments& asked, std::ostream& out, std::ostream& err) 
   RunArguments a = asked;
   Model model = loadModel(a);
   const Plan plan = planRun(a, model);
+  ControlScript control;
+  if (!a.control.empty()) control = readControlScript(a.control, model.actuators);
   std::optional<LivePage> page;
   if (a.live) a.record = page.emplace(asked).file();
   Outputs outputs(a, model, plan);
@@ -114,6 +118,7 @@ int runCommand(const RunArguments& asked, std::ostream& out, std::ostream& err) 
     outputs.look(model, 0, plan);
     for (int64_t step = 1; step <= plan.steps; ++step) {
       throwIfStopped();
+      control.apply(model, static_cast<double>(step - 1) * plan.dt, plan.dt);
       const double seconds = timedStep(model, step, plan.dt);
       clock.add(seconds, model.world.report());
       outputs.look(model, step, plan);

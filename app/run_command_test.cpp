@@ -56,15 +56,27 @@ TEST(Run, PrintsExactlyTheKeysOfTheReport) {
   const Json report = Json::parse(run.out);
   std::vector<std::string> keys;
   for (const auto& [key, value] : report.items()) keys.push_back(key);
-  const std::vector<std::string> expected{"scene",           "bodies",
-                                          "statics",         "shapes",
-                                          "joints",          "contact_points",
-                                          "steps",           "dt",
-                                          "workers",         "ms_median",
-                                          "ms_p95",          "realtime_factor",
-                                          "penetration_max", "penetration_mean",
-                                          "joint_gap_max",   "kinetic_energy",
-                                          "finite",          "hash"};
+  const std::vector<std::string> expected{"scene",
+                                          "bodies",
+                                          "statics",
+                                          "shapes",
+                                          "joints",
+                                          "contact_points",
+                                          "steps",
+                                          "dt",
+                                          "workers",
+                                          "ms_median",
+                                          "ms_p95",
+                                          "realtime_factor",
+                                          "penetration_max",
+                                          "penetration_mean",
+                                          "joint_gap_max",
+                                          "joint_angle_max",
+                                          "limit_excess_max",
+                                          "limit_excess_angle_max",
+                                          "kinetic_energy",
+                                          "finite",
+                                          "hash"};
   EXPECT_EQ(keys, expected);
   EXPECT_EQ(report["scene"], "falling");
   EXPECT_EQ(report["bodies"], 2);
@@ -78,7 +90,9 @@ TEST(Run, PrintsExactlyTheKeysOfTheReport) {
   EXPECT_GT(report["ms_median"], 0);
   EXPECT_GE(report["ms_p95"], report["ms_median"]);
   EXPECT_GT(report["realtime_factor"], 0);
-  EXPECT_EQ(report["joint_gap_max"], 0);
+  for (const char* key : {"joint_gap_max", "joint_angle_max", "limit_excess_max", "limit_excess_angle_max"}) {
+    EXPECT_EQ(report[key], 0) << key;
+  }
   EXPECT_LT(report["penetration_max"], 0.005);
   // Of the ball alone: density 1000, 4.905 m/s.
   const double mass = 1000 * 4.0 / 3 * M_PI * 0.2 * 0.2 * 0.2;
@@ -94,8 +108,9 @@ TEST(Run, PrintsAShortReport) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_LT(lineCount(run.out), 30u);
   const std::string text = std::string("\n").append(run.out);
-  for (const char* label : {"scene", "bodies", "joints", "steps", "time per step", "realtime factor", "stages",
-                            "penetration", "joint gap", "kinetic energy", "momentum", "finite", "hash"})
+  for (const char* label :
+       {"scene", "bodies", "joints", "steps", "time per step", "realtime factor", "stages", "penetration", "joint gap",
+        "beyond limits", "kinetic energy", "momentum", "finite", "hash"})
     EXPECT_NE(text.find(std::string("\n").append(label).append("  ")), std::string::npos) << label;
   EXPECT_EQ(invoke({"run", "chain", "--time", "0.1", "--no-report"}).out, "");
 }

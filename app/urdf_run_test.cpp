@@ -1,6 +1,7 @@
 // `avbd run` on URDF files: how they are told apart, and their options.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/invoke.h"
@@ -74,6 +75,54 @@ TEST(RunUrdf, PackagesByNameAndByFolder) {
   EXPECT_EQ(reportOf({"run", file, "--time", "0.1", "--json", "--skip-bad-meshes"})["shapes"], 0);
 }
 
+// A rod that turns about a horizontal hinge at its end.
+constexpr const char* kRod = R"(<robot name="rod"><link name="base"/><link name="rod"><inertial><origin xyz="0.5 0 0"/>
+  <mass value="1"/><inertia ixx="0.001" ixy="0" ixz="0" iyy="0.08" iyz="0" izz="0.08"/></inertial></link>
+  <joint name="hinge" type="revolute"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/>
+  <limit lower="-1" upper="1.2" effort="50" velocity="20"/></joint></robot>)";
+
+// Of the rod's quaternion at the end, which turns about y.
+double angleAtEnd(const TestFolder& folder, std::vector<std::string> args) {
+  args.insert(args.begin(), {"run", folder.write("rod.urdf", kRod)});
+  for (const char* more : {"--no-report", "--fps", "1", "--poses"}) args.emplace_back(more);
+  args.push_back(folder.file("poses.csv"));
+  const Invoked run = invoke(args);
+  EXPECT_EQ(run.status, kExitDone) << run.err;
+  const std::string csv = folder.read("poses.csv");
+  const size_t line = csv.rfind(",rod,");
+  if (run.status != kExitDone || line == std::string::npos) return -9;
+  std::istringstream in(csv.substr(line + 5));
+  std::vector<double> numbers;
+  for (std::string field; std::getline(in, field, ',');) numbers.push_back(std::stod(field));
+  return 2 * std::atan2(numbers.at(5), numbers.at(3));
+}
+
+TEST(RunUrdf, HoldsItsJointsUnlessLimp) {
+  const TestFolder folder;
+  EXPECT_NEAR(angleAtEnd(folder, {"--time", "2"}), 0, 0.01);
+  EXPECT_NEAR(angleAtEnd(folder, {"--time", "2", "--limp"}), 1.2, 0.02);
+}
+
+TEST(RunUrdf, ActuatorsFollowAScript) {
+  const TestFolder folder;
+  const std::string script =
+      folder.write("c.csv", "# positions\ntime,actuator,value\n0.5, hinge, 0.7\r\n\n1.5,0,-0.4\n");
+  EXPECT_NEAR(angleAtEnd(folder, {"--time", "1", "--control", script}), 0.7, 0.01);
+  EXPECT_NEAR(angleAtEnd(folder, {"--time", "3", "--control", script}), -0.4, 0.01);
+  // A limp one takes torques: 0.5 m x 9.81 N holds it up, and the least more lifts it to its stop.
+  const std::string torque = folder.write("t.csv", "0,hinge,-8\n");
+  EXPECT_NEAR(angleAtEnd(folder, {"--time", "3", "--limp", "--control", torque}), -1, 0.02);
+}
+
+TEST(RunUrdf, ReportsHowJointsHold) {
+  const TestFolder folder;
+  const Json report = reportOf({"run", folder.write("rod.urdf", kRod), "--time", "3", "--limp", "--json"});
+  EXPECT_LT(report["joint_gap_max"], 1e-3);
+  EXPECT_LT(report["joint_angle_max"], 1e-3);
+  EXPECT_EQ(report["limit_excess_max"], 0);
+  EXPECT_LT(report["limit_excess_angle_max"], 0.01);
+}
+
 void expectRefused(const std::vector<std::string>& args, const std::string& words) {
   const Invoked run = invoke(args);
   EXPECT_EQ(run.status, kExitBadInput) << run.out;
@@ -89,6 +138,15 @@ TEST(RunUrdf, RefusesWhatDoesNotFit) {
   expectRefused({"run", file, "--package", "x=/no/such/folder"}, "--package x=/no/such/folder");
   expectRefused({"run", file, "--package", "=."}, "--package =.");
   expectRefused({"run", folder.file("none.urdf")}, "no such file");
+  expectRefused({"run", "chain", "--limp"}, "--limp: scene chain is not a URDF file");
+  expectRefused({"run", "chain", "--no-self-collision"}, "--no-self-collision: scene chain is not a URDF file");
+  expectRefused({"run", file, "--control", folder.file("none.csv")}, "--control " + folder.file("none.csv"));
+  const std::string script = folder.write("c.csv", "0,hinge,1\n");
+  expectRefused({"run", file, "--control", script}, "there are no actuators to control");
+  const std::string rod = folder.write("rod.urdf", kRod);
+  expectRefused({"run", rod, "--control", folder.write("d.csv", "0,hnge,1\n")},
+                "d.csv:1: column 2 (actuator) = \"hnge\"");
+  expectRefused({"run", rod, "--control", script, "--poses", script}, "is the file of --control");
   expectRefused({"run", folder.write("r.urdf.xacro", "<robot><xacro:a/></robot>")}, "xacro");
 }
 

@@ -75,6 +75,7 @@ Bytes chunksOf(std::span<const uint8_t> in, bool compress) {
 void checkFrame(const RecordedFrame& frame, const Recording& head) {
   require(frame.poses.size() == head.bodies.size(), "poses that do not fit the bodies");
   require(frame.velocities.empty() || frame.velocities.size() == head.bodies.size(), "velocities that do not fit");
+  require(frame.joints.empty() || frame.joints.size() == head.joints.size(), "what joints did that there are not");
   const auto fits = [&](uint32_t shape) { return shape == kNotRecorded || shape < head.shapes.size(); };
   for (const RecordedContact& c : frame.contacts)
     require(fits(c.shapeA) && fits(c.shapeB), "a contact of a shape that there is not");
@@ -94,6 +95,11 @@ void checkHead(const Recording& head) {
   for (const RecordedJoint& j : head.joints)
     for (const uint32_t body : {j.bodyA, j.bodyB})
       require(body == kNotRecorded || body < head.bodies.size(), "a joint of a body that there is not");
+  for (const RecordedJoint& j : head.joints) {
+    for (const RecordedLimit& limit : j.limits) require(limit.lower <= limit.upper, "a limit that is no range");
+    require(j.coneY > 0 && j.coneZ > 0, "a cone that is none");
+    require(!j.type || *j.type <= JointType::Custom, "a joint of no type");
+  }
 }
 
 /// Returns whether every frame could be read.

@@ -52,6 +52,8 @@ class Session {
   // session_make.cpp
   void make();
   void makeJoint();
+  void makeMovingJoint(uint32_t kind, BodyId a, BodyId b, const Pose& frameA, const Pose& frameB);
+  D6Axis axis();
   BodyDef bodyDef();
   ShapeDef shapeDef();
   Geometry geometry();
@@ -64,6 +66,7 @@ class Session {
   // session_change.cpp
   void change();
   void changeBody(BodyId body);
+  void changeJoint();
   void changeShape(ShapeId shape);
   void changeMany();
   void push(BodyId body);

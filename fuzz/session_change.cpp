@@ -7,8 +7,9 @@
 namespace avbd::fuzz {
 
 void Session::change() {
-  const uint32_t what = in_.below(10);
+  const uint32_t what = in_.below(13);
   attempt([&] {
+    if (what > 9) return changeJoint();
     switch (what) {
       case 0:
         return changeShape(anyShape());
@@ -34,6 +35,32 @@ void Session::changeShape(ShapeId shape) {
       return world_.setFilter(shape, filter());
     default:
       return world_.setUserData(shape, in_.byte());
+  }
+}
+
+void Session::changeJoint() {
+  if (joints_.empty()) return;
+  const JointId id = joints_[in_.byte() % joints_.size()];
+  const JointAxis name = static_cast<JointAxis>(in_.below(7));
+  switch (in_.below(8)) {
+    case 0:
+      return world_.setLimit(id, name, axis().limit);
+    case 1:
+      return world_.setDrive(id, name, axis().drive);
+    case 2:
+      return world_.setSpring(id, name, axis().spring);
+    case 3:
+      return world_.addJointForce(id, name, in_.number());
+    case 4:
+      return world_.setEnabled(id, in_.flag());
+    case 5:
+      return world_.setBreakLimits(id, {in_.number(), in_.number()});
+    case 6: {
+      const Pose frameA = in_.pose();
+      return world_.setFrames(id, frameA, in_.pose());
+    }
+    default:
+      return world_.setDrive(id, axis().drive);
   }
 }
 
@@ -138,8 +165,12 @@ void Session::remove() {
       if (joints_.empty()) return;
       const JointId joint = joints_[in_.byte() % joints_.size()];
       world_.destroy(joint);
-      std::erase(joints_, joint);
-      deadJoints_.push_back(joint);
+      // With the couplings that name it.
+      std::erase_if(joints_, [&](JointId id) {
+        if (world_.isAlive(id)) return false;
+        deadJoints_.push_back(id);
+        return true;
+      });
     } else {
       const BodyId body = anyBody();
       world_.destroy(body);

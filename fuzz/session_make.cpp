@@ -155,12 +155,13 @@ void Session::makeJoint() {
     if (joints_.size() >= kMostJoints) return;
     // The world's frame is a world pose.
     const auto frame = [&](BodyId body) { return body ? in_.pose() : placePose(); };
-    const uint32_t kind = in_.below(4);
+    const uint32_t kind = in_.below(16);
     Pose frameA, frameB;
-    if (kind < 2) {
+    if (kind < 2 || kind > 3) {
       frameA = frame(a);
       frameB = frame(b);
     }
+    if (kind > 3) return makeMovingJoint(kind, a, b, frameA, frameB);
     switch (kind) {
       case 0:
         joints_.push_back(world_.create(BallJoint{a, b, frameA, frameB, collide, 0}));
@@ -177,6 +178,53 @@ void Session::makeJoint() {
             TetVolume{{a, b, anyBody(), anyBody()}, in_.flag() ? 0 : in_.number(), in_.flag() ? 0 : in_.number(), 0}));
     }
   });
+}
+
+D6Axis Session::axis() {
+  D6Axis axis;
+  axis.motion = in_.flag() ? AxisMotion::Free : AxisMotion::Locked;
+  const uint8_t has = in_.byte();
+  if (has & 1) axis.limit.lower = -in_.positive(), axis.limit.upper = in_.positive();
+  if (has & 2) axis.drive = {in_.positive() * 100, in_.positive() * 10, in_.number(), in_.number()};
+  if (has & 4) axis.friction = in_.positive();
+  if (has & 8) axis.spring = {in_.positive() * 100, in_.positive(), in_.number()};
+  if (has & 16) axis.armature = in_.positive();
+  if (has & 32) axis.limit.stiffness = in_.positive() * 1000, axis.limit.damping = in_.positive();
+  if (has & 64) axis.maxVelocity = in_.positive();
+  if ((has & 129) == 129) axis.limit.restitution = in_.number(), axis.drive.maxForce = in_.positive();
+  return axis;
+}
+
+/// Joints with coordinates, and what couples them.
+void Session::makeMovingJoint(uint32_t kind, BodyId a, BodyId b, const Pose& frameA, const Pose& frameB) {
+  const D6Axis x = axis();
+  if (kind < 6) {
+    HingeJoint def{a, b, frameA, frameB, x.limit, x.drive, x.friction, x.spring, x.armature, x.maxVelocity};
+    joints_.push_back(world_.create(def));
+  } else if (kind < 8) {
+    SliderJoint def{a, b, frameA, frameB, x.limit, x.drive, x.friction, x.spring, x.armature, x.maxVelocity};
+    joints_.push_back(world_.create(def));
+  } else if (kind < 11) {
+    D6Joint def{a, b, frameA, frameB};
+    for (D6Axis& axis : def.axes) axis = this->axis();
+    if (in_.byte() > 180) def.cone = {in_.positive(), in_.positive()};
+    if (in_.byte() > 180) def.slerp = {in_.positive() * 100, in_.positive(), in_.rotation(), in_.vector()};
+    joints_.push_back(world_.create(def));
+  } else if (kind < 13) {
+    joints_.push_back(world_.create(DistanceJoint{a, b, frameA, frameB, in_.positive(), in_.positive()}));
+  } else if (kind < 14) {
+    joints_.push_back(
+        world_.create(PulleyJoint{a, b, frameA, frameB, place(), place(), in_.positive(), in_.positive()}));
+  } else {
+    Coupling def;
+    const uint32_t terms = 1 + in_.below(3);
+    for (uint32_t i = 0; i < terms; ++i) {
+      if (joints_.empty()) return;
+      def.terms.push_back({joints_[in_.byte() % joints_.size()], static_cast<JointAxis>(in_.below(6)), in_.number()});
+    }
+    def.axis = x;
+    joints_.push_back(world_.create(def));
+  }
 }
 
 }  // namespace avbd::fuzz

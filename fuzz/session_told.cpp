@@ -38,6 +38,11 @@ class Digest {
     take(m.friction, m.staticFriction, m.restitution, m.frictionCombine, m.restitutionCombine, m.frictionPriority,
          m.torsionalFriction, m.rollingFriction);
   }
+  void one(const D6Axis& a) {
+    take(a.motion, a.limit.lower, a.limit.upper, a.limit.stiffness, a.limit.damping, a.limit.restitution,
+         a.drive.stiffness, a.drive.damping, a.drive.position, a.drive.velocity, a.drive.maxForce, a.drive.acceleration,
+         a.drive.force, a.friction, a.spring.stiffness, a.spring.damping, a.spring.position, a.armature, a.maxVelocity);
+  }
   void one(const Geometry& g) {
     take(g.index());
     if (const auto* s = std::get_if<Sphere>(&g)) take(s->radius);
@@ -53,6 +58,19 @@ class Digest {
 
   uint64_t value_ = 0xcbf29ce484222325u;
 };
+
+std::vector<D6Axis> axesOf(const World& world, JointId id) {
+  const auto one = [](const auto& def) {
+    return std::vector<D6Axis>{
+        {AxisMotion::Free, def.limit, def.drive, def.friction, def.spring, def.armature, def.maxVelocity}};
+  };
+  if (world.type(id) == JointType::Hinge) return one(world.hingeJoint(id));
+  if (world.type(id) == JointType::Slider) return one(world.sliderJoint(id));
+  if (world.type(id) == JointType::Coupling) return {world.coupling(id).axis};
+  if (world.type(id) != JointType::D6) return {};
+  const D6Joint def = world.d6Joint(id);
+  return {def.axes.begin(), def.axes.end()};
+}
 
 float least(Vec3 v) { return std::min({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
@@ -88,6 +106,8 @@ uint64_t Session::told() const {
     const Velocity v = world_.velocity(id);
     digest.take(world_.type(id), world_.pose(id), v.linear, v.angular, world_.mass(id), world_.inertia(id),
                 world_.centerOfMass(id), world_.userData(id));
+    digest.take(world_.linearDamping(id), world_.angularDamping(id), world_.gravityScale(id), world_.locks(id),
+                world_.maxLinearSpeed(id), world_.maxAngularSpeed(id));
     for (const ShapeId shape : world_.shapes(id)) digest.take(shape);
   }
   for (const ShapeId id : shapes_) {
@@ -96,7 +116,12 @@ uint64_t Session::told() const {
                 world_.userData(id));
     for (const Material& material : world_.materials(id)) digest.take(material);
   }
-  for (const JointId id : joints_) digest.take(world_.type(id), world_.gap(id), world_.userData(id));
+  for (const JointId id : joints_) {
+    const JointBreak breaks = world_.breakLimits(id);
+    digest.take(world_.type(id), world_.gap(id), world_.userData(id), world_.isEnabled(id), breaks.force,
+                breaks.torque);
+    for (const D6Axis& axis : axesOf(world_, id)) digest.take(axis);
+  }
   for (const BodyId id : world_.bodies()) digest.take(id);
   for (const JointId id : world_.joints()) digest.take(id);
   for (const auto& pair : world_.excludedPairs()) digest.take(pair[0], pair[1]);

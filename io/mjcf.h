@@ -3,18 +3,20 @@
 // Kept as MuJoCo means it: compiler settings, default classes, the body tree with all orientations and frames,
 // spheres, capsules, boxes, planes, cylinders, ellipsoids, meshes (their convex hulls collide, as in MuJoCo),
 // primitives fitted to meshes, height fields, masses by density, mass, inertial and the compiler's bounds, contype and
-// conaffinity, excludes, friction by maximum and priority, ball joints, connect and weld, keyframes, gravity, timestep.
-// A body without a free or ball joint is part of its parent's rigid body (static under worldbody): MuJoCo's own meaning
-// where it has no joint at all; hinges and slides are welded like this, and noted.
+// conaffinity, excludes, friction by maximum and priority, all joints with limits, springs, dampers, friction and
+// armature, equalities, fixed tendons and spatial ones between two sites, motors and servos, keyframes, gravity,
+// timestep. A body without a joint is part of its parent's rigid body (static under worldbody), as in MuJoCo. Several
+// joints of one body are one joint of ours where that is the same, else light bodies stand between (mjcf_stages.h).
 // condim 1 is friction 0, 4 adds torsional and 6 rolling friction.
 // A mesh weighs by its own volume, as in MuJoCo from 2.3 on (2.2 took that of a box of the same inertia); its pyramids
 // all count positive unless compiler exactmeshinertia or the mesh's inertia="exact" asks for the exact integral.
 // Files of meshes and height fields: an absolute path as it is, others from the model's folder and meshdir (or
 // assetdir); `..` may leave the folder, as in MuJoCo; regular files only, at most 256 MiB together. A mesh's file is
 // read when a geom first uses it.
-// Left out with a note: sdf geoms, height fields from PNG, tendons, actuators, sensors, skins, composites and other
-// elements that make bodies, contact softness, joint limits and damping. A body that moves and has no mass but that of
-// parts left out stands still; contacts and equalities that name such parts are left out too.
+// Left out with a note: sdf geoms, height fields from PNG, tendons around geoms and over pulleys, muscles and other
+// actuators with states, transmissions to sites and balls, sensors, skins, composites and other elements that make
+// bodies, softness of contacts, limits and equalities. A body that moves and has no mass but that of parts left out
+// stands still; contacts, equalities and actuators that name such parts are left out too.
 // Anything unknown is noted; anything wrong is refused with its place in the file.
 #pragma once
 
@@ -35,6 +37,8 @@ struct MjcfOptions {
 };
 
 /// Throws FileError: nothing is returned half-made. World axes are the file's: z is up where its gravity says so.
+/// Model::joints has the coordinates of hinges and slides; Model::actuators start with the keyframe's ctrl, or where it
+/// gives positions alone, so that servos hold these.
 Model readMjcf(const std::filesystem::path& file, const MjcfOptions& options = {});
 /// The same from text, which cannot include files.
 Model readMjcfText(std::string_view xml, std::string_view nameForMessages, const MjcfOptions& options = {});

@@ -1,4 +1,4 @@
-// From an MJCF description to a Model: which bodies become one, then bodies, shapes, joints and filters.
+// From an MJCF description to a Model: which bodies become one, then bodies, shapes, joints, what moves them, filters.
 #pragma once
 
 #include <map>
@@ -13,14 +13,12 @@ namespace avbd::mjcf {
 
 /// What becomes of each body of a description.
 struct Clusters {
-  enum class Link : uint8_t { Static, Mocap, Free, Ball };
+  enum class Link : uint8_t { Static, Mocap, Free, Jointed };
   std::vector<int> rootOf;   ///< by body: the body whose frame it is part of; its own index for a root
   std::vector<Link> linkOf;  ///< by body, meaningful for roots
 };
-/// Bodies without a joint of ours are part of their parent.
+/// Bodies without a joint are part of their parent.
 Clusters clustersOf(const Description& description);
-/// One ball joint and nothing else.
-bool isBallOnly(const Body& body);
 
 /// Index into description.keys, or -1 for the file's own poses. Throws FileError for a name that is not there.
 int chosenKey(const Description& description, const MjcfOptions& options);

@@ -5,8 +5,6 @@
 
 namespace avbd::mjcf {
 
-bool isBallOnly(const Body& body) { return body.joints.size() == 1 && body.joints[0].kind == JointKind::Ball; }
-
 Clusters clustersOf(const Description& description) {
   using Link = Clusters::Link;
   // Static bodies named by an exclude stay apart so that it does not reach the rest of the world; an exclude of the
@@ -22,8 +20,8 @@ Clusters clustersOf(const Description& description) {
   for (size_t i = 1; i < description.bodies.size(); ++i) {
     const Body& body = description.bodies[i];
     const int self = static_cast<int>(i), parent = out.rootOf[static_cast<size_t>(body.parent)];
-    const bool isFree = !body.joints.empty() && body.joints[0].kind == JointKind::Free;
-    out.linkOf[i] = body.mocap ? Link::Mocap : isFree ? Link::Free : isBallOnly(body) ? Link::Ball : Link::Static;
+    const bool isJointed = !body.joints.empty(), isFree = isJointed && body.joints[0].kind == JointKind::Free;
+    out.linkOf[i] = body.mocap ? Link::Mocap : isFree ? Link::Free : isJointed ? Link::Jointed : Link::Static;
     out.rootOf[i] = out.linkOf[i] != Link::Static ? self : parent;
     const bool onStatic = out.linkOf[static_cast<size_t>(parent)] == Link::Static;
     if (out.linkOf[i] != Link::Static || !onStatic) continue;

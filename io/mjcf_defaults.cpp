@@ -93,7 +93,7 @@ void Defaults::readSettings(Elem elem, Class& cls, Notes& notes) {
     }
     if (section != Section::Read || name == "default") continue;
     checkAttributes(source_, child, name, notes);
-    std::vector<Attr>& known = cls.settings[std::string(name)];
+    std::vector<Attr>& known = cls.settings[std::string(familyOf(name))];
     for (const pugi::xml_attribute a : child.node.attributes()) {
       const Attr attr{a.name(), a.value(), child};
       if (!findRule(name, attr.name)) continue;

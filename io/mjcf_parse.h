@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -64,6 +65,18 @@ struct Joint {
   Vec3d pos;            ///< in the body's frame
   Vec3d axis{0, 0, 1};  ///< unit, in the body's frame
   double ref = 0;       ///< [rad] or [m] that the pose of the file stands for
+  bool limited = false;
+  double lower = 0, upper = 0;  ///< of limited ones, in the file's coordinate; ball: upper is the largest turn
+  double stiffness = 0, springRef = 0, damping = 0;
+  double armature = 0, friction = 0;
+  double maxForce = std::numeric_limits<double>::infinity();  ///< of all actuators together
+};
+
+/// A place in a body that others refer to.
+struct Site {
+  std::string where;
+  int body = 0;
+  Posed pose;  ///< in the body's frame
 };
 
 struct Body {
@@ -92,6 +105,12 @@ struct GeomRef {
   size_t geom = 0;
 };
 
+/// Names one joint.
+struct JointRef {
+  int body = 0;
+  size_t joint = 0;
+};
+
 struct Pair {
   std::string where;
   GeomRef a, b;
@@ -100,18 +119,58 @@ struct Pair {
   int condim = 3;
 };
 
+enum class EqualityKind { Connect, Weld, Joint, Tendon, Distance };
+
 struct Equality {
   std::string where;
-  bool weld = false;  ///< else connect
+  EqualityKind kind = EqualityKind::Connect;
+  bool active = true;
   int bodyA = 0, bodyB = 0;
   Vec3d anchor;  ///< connect: in A's frame; weld: in B's
   bool hasRelative = false;
-  Posed relative;  ///< weld: of B in A's frame, if given; else as the file's poses are
+  Posed relative;                  ///< weld: of B in A's frame, if given; else as the file's poses are
+  bool atSites = false;            ///< connect and weld hold these two together, distance keeps them apart
+  Posed siteA, siteB;              ///< in A's and B's frame
+  double distance = 0;             ///< [m] of the two places
+  JointRef jointA, jointB;         ///< Joint: A follows B
+  int tendonA = -1, tendonB = -1;  ///< Tendon: A follows B
+  bool alone = false;              ///< Joint, Tendon: A is held, there is no B
+  std::array<double, 5> polynomial{0, 1, 0, 0, 0};  ///< of B's coordinate from its reference, lowest power first
+};
+
+/// One joint of a fixed tendon.
+struct TendonTerm {
+  JointRef joint;
+  double factor = 1;
+};
+
+struct Tendon {
+  std::string name, where;
+  std::vector<TendonTerm> terms;  ///< of a fixed one
+  std::vector<int> sites;         ///< of a spatial one
+  bool straight = true;           ///< a spatial one that neither wraps around geoms nor runs over pulleys
+  bool limited = false;
+  double lower = 0, upper = 0;
+  double stiffness = 0, damping = 0, friction = 0, armature = 0;
+  std::optional<std::array<double, 2>> springLength;  ///< no force between; none: the length at the reference
+};
+
+/// An actuator: force = gear (gain control + bias[0] + bias[1] length + bias[2] speed), the bracket within maxForce;
+/// length and speed are gear times those of what it moves.
+struct Actuation {
+  std::string name, where;
+  bool leftOut = false;  ///< with a note; it still counts in the controls of keyframes
+  JointRef joint;        ///< where it has no tendon
+  int tendon = -1;
+  double gear = 1, gain = 1;
+  std::array<double, 3> bias{0, 0, 0};
+  std::optional<std::array<double, 2>> range;  ///< of the control
+  double maxForce = std::numeric_limits<double>::infinity();
 };
 
 struct Key {
   std::string name, where;
-  std::vector<double> qpos, qvel;  ///< of the whole model, or empty
+  std::vector<double> qpos, qvel, ctrl;  ///< of the whole model, or empty
 };
 
 struct Description {
@@ -126,6 +185,9 @@ struct Description {
   std::vector<Exclude> excludes;
   std::vector<Pair> pairs;
   std::vector<Equality> equalities;
+  std::vector<Site> sites;
+  std::vector<Tendon> tendons;
+  std::vector<Actuation> actuations;
   std::vector<Key> keys;
   std::vector<MeshAsset> meshes;  ///< of the file; those that no geom uses are empty
   std::vector<HeightAsset> heights;
@@ -136,6 +198,14 @@ struct Description {
 /// Reads and checks; throws FileError.
 Description parseFile(const std::filesystem::path& file);
 Description parseText(std::string_view xml, std::string_view nameForMessages);
+
+inline const Joint& jointOf(const Description& description, JointRef ref) {
+  return description.bodies[static_cast<size_t>(ref.body)].joints[ref.joint];
+}
+
+/// Where a body's frame is before its first joint and after each of them, `before` being the first. q: its joints'
+/// coordinates in a keyframe, or null for their references.
+std::vector<Posed> posesAlong(const Body& body, const Posed& before, const double* q);
 
 /// World poses of all bodies with the joints at qpos, or as the file has them where qpos is empty.
 std::vector<Posed> worldPoses(const Description& description, const std::vector<double>& qpos);

@@ -40,6 +40,8 @@ Description Parser::run() {
   finishTree();
   finishMasses();
   forSection("contact", [&](Elem e) { readContact(e); });
+  forSection("tendon", [&](Elem e) { readTendons(e); });
+  forSection("actuator", [&](Elem e) { readActuators(e); });
   forSection("equality", [&](Elem e) { readEqualities(e); });
   forSection("keyframe", [&](Elem e) { readKeys(e); });
   out_.notes = notes_.lines();
@@ -103,6 +105,7 @@ void Parser::readCompiler(Elem elem) {
   compiler_.balanceInertia = a.flag("balanceinertia", compiler_.balanceInertia);
   if (a.has("assetdir")) compiler_.meshFolder = a.text("assetdir");
   if (a.has("meshdir")) compiler_.meshFolder = a.text("meshdir");
+  compiler_.autoLimits = a.flag("autolimits", compiler_.autoLimits);
   compiler_.stripPath = a.flag("strippath", compiler_.stripPath);
   compiler_.fitAabb = a.flag("fitaabb", compiler_.fitAabb);
   compiler_.exactMeshInertia = a.flag("exactmeshinertia", compiler_.exactMeshInertia);
@@ -135,9 +138,16 @@ void Parser::readFlag(Elem elem) {
     notes_.add(source_.where(elem), "contacts are disabled: nothing collides");
   }
   if (!constraints || !a.enabled("equality")) {
-    equalitiesOff_ = true;
+    off_.equalities = true;
     notes_.add(source_.where(elem), "equality constraints are disabled");
   }
+  const bool passive = a.enabled("passive");  // of versions that have no flags for springs and dampers
+  off_.limits = off_.limits || !constraints || !a.enabled("limit");
+  off_.frictions = off_.frictions || !constraints || !a.enabled("frictionloss");
+  off_.springs = off_.springs || !passive || !a.enabled("spring");
+  off_.dampers = off_.dampers || !passive || !a.enabled("damper");
+  off_.controlRanges = off_.controlRanges || !a.enabled("clampctrl");
+  off_.actuators = off_.actuators || !a.enabled("actuation");
   if (!a.enabled("gravity")) out_.gravity = {};
   if (!a.enabled("filterparent")) out_.filterParent = false;
 }

@@ -21,6 +21,13 @@ struct Compiler {
   double setTotalMass = -1;
   bool stripPath = false, fitAabb = false, exactMeshInertia = false;
   std::string meshFolder;
+  bool autoLimits = true;
+};
+
+/// What the file's flags switch off.
+struct SwitchedOff {
+  bool equalities = false, limits = false, frictions = false, springs = false, dampers = false;
+  bool controlRanges = false, actuators = false;
 };
 
 /// Where a mesh of the file comes from; read when a geom first uses it.
@@ -82,14 +89,43 @@ class Parser {
   void readBodyChild(Elem elem, std::vector<OpenElem>& open);
   void openBody(Elem elem, std::vector<OpenElem>& open);
   void openFrame(Elem elem, std::vector<OpenElem>& open);
-  void readJoint(Elem elem, const OpenElem& in, bool isFree);
-  void noteUnusedJoint(const Attributes& a, const Joint& joint);
+  void readSite(Elem elem, const OpenElem& in);
   void readInertial(Elem elem, const OpenElem& in);
   void finishTree();
   Quatd orientation(const Attributes& a) const;
   Posed pose(const Attributes& a) const;
   Vec3d vector(const Attributes& a, std::string_view name, Vec3d otherwise) const;
   std::string nameOnce(const Attributes& a, std::set<std::string, std::less<>>& names);
+
+  // mjcf_parser_joints.cpp
+  void readJoint(Elem elem, const OpenElem& in, bool isFree);
+  void checkAmong(Elem elem, const Body& body, const Joint& joint);
+  void readJointRange(const Attributes& a, Joint& joint);
+  void readJointForces(const Attributes& a, Joint& joint);
+  double angleUnit(JointKind kind) const;
+  bool isLimited(const Attributes& a, std::string_view flag, std::string_view range);
+  double notNegative(const Attributes& a, std::string_view name, size_t most = 1);
+  double firstOf(const Attributes& a, std::string_view name);
+  double largerOf(const Attributes& a, std::string_view range);
+
+  // mjcf_parser_tendons.cpp
+  void readTendons(Elem elem);
+  void readTendon(Elem elem);
+  void readFixed(Elem elem, Tendon& tendon);
+  void readSpatial(Elem elem, Tendon& tendon);
+  std::optional<JointRef> scalarJoint(const Attributes& a, std::string_view attribute);
+  int siteNamed(const Attributes& a, std::string_view attribute);
+  int tendonNamed(const Attributes& a, std::string_view attribute);
+
+  // mjcf_parser_actuators.cpp
+  void readActuators(Elem elem);
+  void readActuator(Elem elem);
+  void readTransmission(const Attributes& a, Actuation& actuation);
+  void readLaw(const Attributes& a, Actuation& actuation);
+  void readGeneralLaw(const Attributes& a, Actuation& actuation);
+  void readServo(const Attributes& a, Actuation& actuation);
+  void readActuatorRanges(const Attributes& a, Actuation& actuation);
+  void leaveOut(Actuation& actuation, const std::string& why);
 
   // mjcf_parser_geoms.cpp
   void readGeom(Elem elem, const OpenElem& in);
@@ -112,7 +148,11 @@ class Parser {
   void readExclude(Elem elem);
   void readPair(Elem elem);
   void readEqualities(Elem elem);
-  void readEquality(Elem elem, bool weld);
+  void readEquality(Elem elem);
+  bool readHold(const Attributes& a, Equality& equality);
+  bool holdAtSites(const Attributes& a, Equality& equality);
+  bool readRelation(const Attributes& a, Equality& equality);
+  bool readDistance(const Attributes& a, Equality& equality);
   void readKeys(Elem elem);
   std::vector<double> keyNumbers(const Attributes& a, std::string_view name, size_t count);
   int bodyNamed(const Attributes& a, std::string_view attribute);
@@ -128,14 +168,17 @@ class Parser {
   std::vector<Elem> bodyElems_;      // of out_.bodies
   std::map<std::string, int, std::less<>> bodyByName_{{"world", 0}};
   std::map<std::string, GeomRef, std::less<>> geomByName_;
-  std::set<std::string, std::less<>> jointNames_, equalityNames_, keyNames_, pairNames_, excludeNames_;
+  std::map<std::string, JointRef, std::less<>> jointByName_;
+  std::map<std::string, int, std::less<>> siteByName_, tendonByName_;  // into out_.sites and tendons
+  std::set<std::string, std::less<>> jointNames_, siteNames_, tendonNames_, actuatorNames_;
+  std::set<std::string, std::less<>> equalityNames_, keyNames_, pairNames_, excludeNames_;
   std::map<std::string, std::set<std::string, std::less<>>, std::less<>> assets_;  // names by element
   std::vector<MeshSource> meshSources_;                                            // of out_.meshes
   std::map<std::string, size_t, std::less<>> meshByName_, heightsByName_;          // into out_.meshes and heights
   std::map<std::string, std::optional<Color>, std::less<>> materials_;
   size_t assetBytes_ = 0;
   bool coordinatesMissing_ = false;  // something left out would have brought coordinates of its own
-  bool equalitiesOff_ = false;
+  SwitchedOff off_;
 };
 
 }  // namespace avbd::mjcf

@@ -1,4 +1,4 @@
-// MJCF bodies: the tree, poses, joints, inertial elements.
+// MJCF bodies: the tree, poses, sites, inertial elements.
 #include <cmath>
 #include <numbers>
 
@@ -90,6 +90,7 @@ void Parser::readBodyChild(Elem elem, std::vector<OpenElem>& open) {
   if (name == "geom") return readGeom(elem, in);
   if (name == "joint" || name == "freejoint") return readJoint(elem, in, name == "freejoint");
   if (name == "inertial") return readInertial(elem, in);
+  if (name == "site") return readSite(elem, in);
   switch (sectionOf("body", name)) {
     case Section::Noted:
       notes_.add(source_.where(elem), "left out", name);
@@ -140,47 +141,24 @@ void Parser::openFrame(Elem elem, std::vector<OpenElem>& open) {
   open.push_back(std::move(next));
 }
 
-void Parser::readJoint(Elem elem, const OpenElem& in, bool isFree) {
-  Body& body = out_.bodies[static_cast<size_t>(in.body)];
-  checkAttributes(source_, elem, elem.name(), notes_);
-  const Attributes a = isFree ? own(elem, "freejoint") : defaults_.resolve(elem, "joint", in.cls);
-  if (in.body == 0) source_.fail(elem, "the world cannot have a joint");
-  if (body.mocap) source_.fail(elem, "a mocap body cannot have joints");
-  Joint joint;
-  joint.where = source_.where(elem);
-  joint.name = nameOnce(a, jointNames_);
-  joint.kind =
-      isFree ? JointKind::Free : static_cast<JointKind>(a.keyword("type", {"free", "ball", "slide", "hinge"}, 3));
-  if (!isFree) {
-    joint.pos = in.frame.position + rotate(in.frame.rotation, vector(a, "pos", {}));
-    joint.axis = vector(a, "axis", {0, 0, 1});
-    if (joint.kind >= JointKind::Slide && !(length(joint.axis) > 1e-14)) a.fail("axis", "must not be zero");
-    if (joint.kind >= JointKind::Slide) joint.axis = rotate(in.frame.rotation, joint.axis * (1 / length(joint.axis)));
-    joint.ref = a.number("ref", 0);
-    if (joint.kind == JointKind::Hinge && compiler_.degrees) joint.ref *= std::numbers::pi / 180;
-    noteUnusedJoint(a, joint);
+void Parser::readSite(Elem elem, const OpenElem& in) {
+  checkAttributes(source_, elem, "site", notes_);
+  const Attributes a = defaults_.resolve(elem, "site", in.cls);
+  Site site;
+  site.where = source_.where(elem);
+  site.body = in.body;
+  Posed at = pose(a);
+  // A site between two points is at their middle, its z from the second to the first, as for geoms.
+  if (const auto v = a.numbers("fromto", 6, 6); !v.empty()) {
+    const Vec3d from{v[0], v[1], v[2]}, to{v[3], v[4], v[5]};
+    if (!(length(from - to) > 1e-14)) a.fail("fromto", "the two points must not be equal");
+    at = {(from + to) * 0.5, turnFromZ(from - to)};
   }
-  if (joint.kind >= JointKind::Hinge || joint.kind == JointKind::Ball) {
-    for (const Joint& before : body.joints) {
-      if (before.kind == JointKind::Ball) source_.fail(elem, "no joint that turns may follow a ball joint");
-    }
+  site.pose = in.frame * at;
+  if (const std::string name = nameOnce(a, siteNames_); !name.empty()) {
+    siteByName_.emplace(name, static_cast<int>(out_.sites.size()));
   }
-  const bool freeAmong =
-      joint.kind == JointKind::Free || (!body.joints.empty() && body.joints[0].kind == JointKind::Free);
-  if (freeAmong && !body.joints.empty()) source_.fail(elem, "a free joint must be the only joint of its body");
-  if (freeAmong && body.parent != 0) source_.fail(elem, "a free joint is only allowed in a child of worldbody");
-  if (joint.kind == JointKind::Free) joint.pos = {};
-  body.joints.push_back(std::move(joint));
-}
-
-void Parser::noteUnusedJoint(const Attributes& a, const Joint& joint) {
-  const bool limited = a.keyword("limited", {"false", "true", "auto"}, 2) == 1 || a.has("range");
-  if (joint.kind >= JointKind::Slide) return;  // those are welded, which is noted when that is done
-  if (joint.kind == JointKind::Ball && limited) notes_.add(joint.where, "the limit of a ball joint is not used");
-  for (const char* name : {"stiffness", "damping", "springdamper", "frictionloss", "armature"}) {
-    const auto values = a.numbers(name, 1, 3);
-    if (!values.empty() && values[0] != 0) notes_.add(joint.where, "attribute " + std::string(name) + " is not used");
-  }
+  out_.sites.push_back(std::move(site));
 }
 
 void Parser::readInertial(Elem elem, const OpenElem& in) {

@@ -193,6 +193,19 @@ const Refused kWorld[] = {
     {"<body name='b'><joint type='rev'/></body>", {"body \"b\" > joint: type = \"rev\"", "free, ball, slide, hinge"}},
     {"<body><joint axis='0 0 0'/></body>", {"axis = \"0 0 0\"", "must not be zero"}},
     {"<body><joint pos='0'/></body>", {"pos = \"0\"", "3 numbers"}},
+    {"<body><joint axis='0 nan 0'/></body>", {"axis = \"0 nan 0\"", "must be finite"}},
+    {"<body><joint range='2 1'/></body>", {"range = \"2 1\"", "less than the second"}},
+    {"<body><joint type='slide' range='1 1'/></body>", {"range = \"1 1\"", "less than the second"}},
+    {"<body><joint limited='true'/></body>", {"range is missing", "limited is true"}},
+    {"<body><joint type='ball' range='-1 1'/></body>", {"range = \"-1 1\"", "0 and the largest turn > 0"}},
+    {"<body><joint stiffness='-1'/></body>", {"stiffness = \"-1\"", "finite and >= 0"}},
+    {"<body><joint damping='-1'/></body>", {"damping = \"-1\"", "finite and >= 0"}},
+    {"<body><joint armature='-1'/></body>", {"armature = \"-1\"", "finite and >= 0"}},
+    {"<body><joint frictionloss='-1'/></body>", {"frictionloss = \"-1\"", "finite and >= 0"}},
+    {"<body><joint springref='x'/></body>", {"springref = \"x\"", "is not a number"}},
+    {"<body><joint actuatorfrcrange='1 0'/></body>", {"actuatorfrcrange = \"1 0\"", "less than the second"}},
+    {"<site name='p'/><site name='p'/>", {"site \"p\": name = \"p\"", "has this name"}},
+    {"<site fromto='0 0 0 0 0 0'/>", {"fromto", "must not be equal"}},
     {"<body><joint range='0'/></body>", {"range = \"0\"", "2 numbers"}},
     {"<body><joint type='ball' limited='maybe'/></body>", {"limited = \"maybe\"", "false, true, auto"}},
     {"<body><joint name='j'/></body><body><freejoint name='j'/></body>", {"name = \"j\"", "has this name"}},
@@ -243,6 +256,65 @@ TEST(Refused, Links) {
     expectRefused(
         "<mujoco><worldbody><body name='a'><freejoint/><geom name='a' size='1'/></body>"
         "<body name='b'><freejoint/><geom name='b' size='1'/></body></worldbody>" +
+            std::string(r.xml) + "</mujoco>",
+        r.parts);
+  }
+}
+
+// Beside a body with a hinge h, a slide s and a ball b, sites p and q, tendon t over h.
+const Refused kMoved[] = {
+    {"<actuator><motor joint='x'/></actuator>", {"motor: joint = \"x\"", "no joint has this name"}},
+    {"<actuator><motor/></actuator>", {"motor: must name exactly one of joint"}},
+    {"<actuator><motor joint='h' tendon='t'/></actuator>", {"must name exactly one of joint"}},
+    {"<actuator><motor tendon='x'/></actuator>", {"tendon = \"x\"", "no tendon has this name"}},
+    {"<actuator><motor site='x'/></actuator>", {"site = \"x\"", "no site has this name"}},
+    {"<actuator><motor cranksite='p' slidersite='x'/></actuator>", {"slidersite = \"x\"", "no site"}},
+    {"<actuator><adhesion body='x'/></actuator>", {"body = \"x\"", "no body has this name"}},
+    {"<actuator><motor joint='h' gear='nan'/></actuator>", {"gear = \"nan\"", "must be finite"}},
+    {"<actuator><motor joint='h' gear='1 2 3 4 5 6 7'/></actuator>", {"gear", "1 to 6 numbers"}},
+    {"<actuator><motor joint='h' ctrlrange='1 -1'/></actuator>", {"ctrlrange = \"1 -1\"", "less than the second"}},
+    {"<actuator><motor joint='h' ctrllimited='true'/></actuator>", {"ctrlrange is missing", "ctrllimited is true"}},
+    {"<actuator><motor joint='h' forcerange='1'/></actuator>", {"forcerange = \"1\"", "2 numbers"}},
+    {"<actuator><motor joint='h' forcerange='2 2'/></actuator>", {"forcerange = \"2 2\"", "less than the second"}},
+    {"<actuator><position joint='h' kp='-1'/></actuator>", {"kp = \"-1\"", "finite and >= 0"}},
+    {"<actuator><velocity joint='h' kv='-1'/></actuator>", {"kv = \"-1\"", "finite and >= 0"}},
+    {"<actuator><position joint='h' inheritrange='1'/></actuator>", {"inheritrange = \"1\"", "joint with a range"}},
+    {"<actuator><general joint='h' dyntype='x'/></actuator>", {"dyntype = \"x\"", "none, integrator"}},
+    {"<actuator><general joint='h' gainprm='a'/></actuator>", {"gainprm = \"a\"", "is not a number"}},
+    {"<actuator><motor name='m' joint='h'/><motor name='m' joint='h'/></actuator>", {"name = \"m\"", "has this name"}},
+    {"<tendon><fixed/></tendon>", {"fixed: a fixed tendon must have a joint"}},
+    {"<tendon><fixed><joint joint='h'/></fixed></tendon>", {"coef is missing"}},
+    {"<tendon><fixed><joint joint='x' coef='1'/></fixed></tendon>", {"joint = \"x\"", "no joint has this name"}},
+    {"<tendon><fixed><joint joint='b' coef='1'/></fixed></tendon>", {"joint = \"b\"", "hinge or slide"}},
+    {"<tendon><fixed range='2 1'><joint joint='h' coef='1'/></fixed></tendon>", {"range = \"2 1\"", "less than"}},
+    {"<tendon><fixed stiffness='-1'><joint joint='h' coef='1'/></fixed></tendon>", {"stiffness = \"-1\"", ">= 0"}},
+    {"<tendon><fixed springlength='2 1'><joint joint='h' coef='1'/></fixed></tendon>", {"springlength", "above"}},
+    {"<tendon><fixed name='t'><joint joint='h' coef='1'/></fixed></tendon>", {"name = \"t\"", "has this name"}},
+    {"<tendon><spatial><site site='p'/></spatial></tendon>", {"spatial", "two sites or more"}},
+    {"<tendon><spatial><site site='p'/><site site='x'/></spatial></tendon>", {"site = \"x\"", "no site"}},
+    {"<tendon><spatial><site site='p'/><geom geom='x'/><site site='q'/></spatial></tendon>", {"geom = \"x\""}},
+    {"<tendon><spatial><site site='p'/><pulley divisor='0'/><site site='q'/></spatial></tendon>", {"divisor", "> 0"}},
+    {"<equality><joint joint1='x'/></equality>", {"joint1 = \"x\"", "no joint has this name"}},
+    {"<equality><joint/></equality>", {"joint1 is missing"}},
+    {"<equality><joint joint1='h' joint2='h'/></equality>", {"joint2 = \"h\"", "must be another one"}},
+    {"<equality><joint joint1='h' joint2='b'/></equality>", {"joint2 = \"b\"", "hinge or slide"}},
+    {"<equality><joint joint1='h' polycoef='1 2 3 4 5 6'/></equality>", {"polycoef", "1 to 5 numbers"}},
+    {"<equality><tendon tendon1='x'/></equality>", {"tendon1 = \"x\"", "no tendon has this name"}},
+    {"<equality><distance geom1='g' geom2='x'/></equality>", {"geom2 = \"x\"", "no geom"}},
+    {"<equality><distance geom1='g' geom2='k' distance='-1'/></equality>", {"distance = \"-1\"", ">= 0"}},
+    {"<equality><weld site1='p' site2='x'/></equality>", {"site2 = \"x\"", "no site"}},
+    {"<equality><connect site1='p' site2='p'/></equality>", {"site2 = \"p\"", "another body"}},
+    {"<keyframe><key qpos='1 2 3'/></keyframe>", {"qpos holds 3 numbers", "must be 6", "as the joints"}},
+    {"<keyframe><key ctrl='1 2'/></keyframe>", {"ctrl holds 2 numbers", "must be 0", "as the actuators"}},
+};
+
+TEST(Refused, WhatMoves) {
+  for (const Refused& r : kMoved) {
+    expectRefused(
+        "<mujoco><worldbody><site name='q'/><geom name='k' size='1'/><body name='a'><joint name='h'/>"
+        "<joint name='s' type='slide'/><geom name='g' size='1'/><site name='p'/><body><joint name='b' type='ball'/>"
+        "<geom size='1'/></body></body></worldbody><tendon><fixed name='t'><joint joint='h' "
+        "coef='1'/></fixed></tendon>" +
             std::string(r.xml) + "</mujoco>",
         r.parts);
   }

@@ -19,11 +19,15 @@ struct AttributeRule {
   Use use;
 };
 
+/// Elements that share their attributes and one default: "actuator" for a motor, "equality" for a weld, "tendon" for a
+/// fixed one; all others are their own.
+std::string_view familyOf(std::string_view element);
+
 /// Rule of an attribute; null where MJCF has none of that name.
 const AttributeRule* findRule(std::string_view element, std::string_view attribute);
 
 enum class Section { Read, Silent, Noted, Unknown };
-/// What becomes of an element under `parent` ("mujoco", "body", "contact", "equality", "keyframe", "default").
+/// What becomes of an element under `parent` ("mujoco", "body", "contact", "actuator", ...).
 Section sectionOf(std::string_view parent, std::string_view element);
 
 }  // namespace avbd::mjcf

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <regex>
 
 #include "io/mjcf_mass.h"
 #include "io/mujoco_compare.h"
@@ -99,7 +102,9 @@ void compare(const std::string& text, const std::string& name) {
   if (compared < d.links.size() && d.links[static_cast<size_t>(d.order[0])].mass) {
     parts.push_back(*d.links[static_cast<size_t>(d.order[0])].mass);  // which MuJoCo drops
   }
-  const Model model = readUrdfText(text, name, {.floating = true, .badMesh = BadMesh::Note});
+  const std::regex movable("type=\"(revolute|continuous|prismatic)\"");
+  const std::string fixed = std::regex_replace(text, movable, "type=\"fixed\"");
+  const Model model = readUrdfText(fixed, name, {.floating = true, .badMesh = BadMesh::Note});
   ASSERT_EQ(model.bodies.size(), 1u);
   const BodyId id = model.bodies[0].id;
   const SymMat3 s = model.world.inertia(id);
@@ -113,7 +118,8 @@ TEST(UrdfOracle, Arm) {
   const size_t capsule = text.find("<capsule"), end = text.find("/>", capsule);
   ASSERT_NE(capsule, std::string::npos);
   text.replace(capsule, end - capsule, "<sphere radius=\"0.03\"");
-  compare(text, "arm.urdf");
+  // Nor mimics, whose offset moves where the robot starts.
+  compare(std::regex_replace(text, std::regex("<mimic[^>]*/>"), ""), "arm.urdf");
 }
 
 TEST(UrdfOracle, Turns) {
@@ -164,6 +170,77 @@ TEST(UrdfOracle, Robots) {
   ASSERT_NE(atlas.find(impossible), std::string::npos);
   atlas.replace(atlas.find(impossible), impossible.size(), "ixx=\"0.0025\"");
   compare(atlas, "atlas_v4.urdf");
+}
+
+// Without what MuJoCo has not (mimics, bounds of velocity) or has softer (bounds).
+std::string withoutBounds(std::string text) {
+  text = std::regex_replace(text, std::regex("<mimic[^>]*/>"), "");
+  text = std::regex_replace(text, std::regex("<limit[^>]*/>"), "");
+  return std::regex_replace(text, std::regex("type=\"revolute\""), "type=\"continuous\"");
+}
+
+// [rad, m] Largest difference of a joint's position from MuJoCo's by Runge-Kutta over the time.
+struct Strayed {
+  double ours = 0, theirs = 0;  // theirs: of MuJoCo by Euler with the same step
+};
+
+// The robot is limp, and nothing collides.
+Strayed compareMotion(const std::string& text, const std::string& name, double time, double dt) {
+  const Loaded exact = load(text), euler = load(text);
+  EXPECT_TRUE(exact.model && euler.model) << name;
+  if (!exact.model || !euler.model) return {1, 0};
+  for (mjModel* m : {exact.model.get(), euler.model.get()}) {
+    m->opt.timestep = dt;
+    m->opt.disableflags |= mjDSBL_CONTACT;
+  }
+  exact.model->opt.integrator = mjINT_RK4;
+  Model model = readUrdfText(text, name, {.limp = true, .badMesh = BadMesh::Note, .selfCollision = false});
+  EXPECT_EQ(static_cast<int>(model.joints.size()), exact.model->njnt) << name;
+  Strayed out;
+  double turned = 0;
+  for (int i = 0; i < time / dt; ++i) {
+    mj_step(exact.model.get(), exact.data.get());
+    mj_step(euler.model.get(), euler.data.get());
+    model.world.step(static_cast<float>(dt));
+    for (const NamedJoint& joint : model.joints) {
+      const int at = exact.model->jnt_qposadr[mj_name2id(exact.model.get(), mjOBJ_JOINT, joint.name.c_str())];
+      const double q = exact.data->qpos[at];
+      const double ours = model.world.coordinate(joint.id, joint.axis).position + joint.offset;
+      out.ours = std::max(out.ours, std::abs(ours - q));
+      out.theirs = std::max(out.theirs, std::abs(euler.data->qpos[at] - q));
+      turned = std::max(turned, std::abs(q));
+    }
+  }
+  std::printf("%-16s %.1f s of %g s: turned %.2f, strays %.5f; MuJoCo by Euler %.5f\n", name.c_str(), time, dt, turned,
+              out.ours, out.theirs);
+  return out;
+}
+
+void expectMotion(const std::string& text, const std::string& name) {
+  const Strayed coarse = compareMotion(text, name, 1, 0.002), fine = compareMotion(text, name, 1, 0.001);
+  EXPECT_LT(coarse.ours, 0.02) << name;
+  EXPECT_LT(coarse.ours, coarse.theirs) << name;
+  EXPECT_LT(fine.ours, 0.6 * coarse.ours) << name;
+}
+
+TEST(UrdfOracle, ALimpArmMovesAsTheirs) {
+  std::string text = textOf(fs::path(__FILE__).parent_path() / "corpus/urdf/good/arm.urdf");
+  const size_t capsule = text.find("<capsule"), end = text.find("/>", capsule);
+  text.replace(capsule, end - capsule, "<sphere radius=\"0.03\"");
+  text = std::regex_replace(withoutBounds(text), std::regex("friction=\"0.1\""), "friction=\"0\"");
+  expectMotion(text, "arm.urdf");
+}
+
+TEST(UrdfOracle, LimpRobotsMoveAsTheirs) {
+  if (const char* why = simbodyRobotsMissing()) GTEST_SKIP() << why;
+  const std::string source = (kSimbodyExamples / "TaskSpaceControl-").string();
+  const std::string ur10 = withoutBounds(withoutMeshes(unpacked(source + "UR10/models/ur10_robot.urdf.gz")));
+  expectMotion(ur10, "ur10_robot.urdf");
+  std::string atlas = withoutBounds(withoutMeshes(unpacked(source + "Atlas/models/atlas_v4.urdf.gz")));
+  const std::string impossible = "ixx=\"0.0036053766\"";
+  ASSERT_NE(atlas.find(impossible), std::string::npos);
+  atlas.replace(atlas.find(impossible), impossible.size(), "ixx=\"0.0025\"");
+  expectMotion(atlas, "atlas_v4.urdf");
 }
 
 }  // namespace

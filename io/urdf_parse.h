@@ -53,12 +53,13 @@ struct Link {
 };
 
 struct Limit {
-  double lower = 0, upper = 0;  ///< [rad] or [m]
-  double effort = 0;            ///< [N m] or [N]; 0 where not given
-  double velocity = 0;          ///< [rad/s] or [m/s]; 0 where not given
+  double lower = 0, upper = 0;  ///< [rad] or [m]; infinite: no bound
+  double effort = 0;            ///< [N m] or [N]; 0: no bound
+  double velocity = 0;          ///< [rad/s] or [m/s]; 0: no bound
 };
+/// This joint = multiplier * that joint + offset. That joint mimics none: chains are followed to their end.
 struct Mimic {
-  int joint = 0;  ///< this joint = multiplier * that joint + offset
+  int joint = 0;
   double multiplier = 1, offset = 0;
 };
 struct Safety {
@@ -75,7 +76,8 @@ struct Joint {
   int parent = 0, child = 0;   ///< links; parent -1: the joint is the anchor, not part of the tree
   Posed pose;                  ///< of the child's frame in the parent's, at position zero
   Vec3d axis{1, 0, 0};         ///< unit, in the joint's (= child's) frame
-  std::optional<Limit> limit;  ///< bounds of revolute and prismatic joints; effort and velocity of continuous ones too
+  std::optional<Limit> limit;  ///< lower and upper bound revolute and prismatic joints only
+  double start = 0;            ///< [rad] or [m] position at the start, of joints with one coordinate
   double damping = 0;          ///< [N m s/rad] or [N s/m]
   double friction = 0;         ///< [N m] or [N]
   std::optional<Mimic> mimic;
@@ -83,10 +85,15 @@ struct Joint {
   std::optional<Calibration> calibration;
 };
 
-/// What drives joints. Only kept, not used.
+/// What a transmission makes of an actuator's effort: effort of the joint = reduction * that of the actuator.
+struct Driven {
+  int joint = 0;
+  std::string actuator;  ///< its name
+  double reduction = 1;  ///< not zero
+};
 struct Transmission {
-  std::string name, type;
-  std::vector<int> joints;
+  std::string name, type, where;
+  std::vector<Driven> driven;
 };
 
 /// Holds a link that is not the root at a place in the world: a fixed joint from a world that is not a link.
@@ -111,7 +118,10 @@ struct Description {
 Description parseFile(const std::filesystem::path& file);
 Description parseText(std::string_view xml, std::string_view nameForMessages);
 
-/// Poses of all links in the world, joints at zero: the root stands at the origin, or where the anchor holds it.
+/// A revolute, continuous or prismatic joint: its position is one number.
+bool hasOneCoordinate(JointKind kind);
+
+/// Poses of all links in the world at the start: the root stands at the origin, or where the anchor holds it.
 std::vector<Posed> linkPoses(const Description& description);
 
 }  // namespace avbd::urdf

@@ -47,6 +47,8 @@ void Parser::parse() {
   }
   for (size_t i = 0; i < out_.joints.size(); ++i) readMimic(jointElems_[i], out_.joints[i]);
   dropMimicLoops();
+  resolveMimics();
+  setStarts();
   for (const Elem& part : parts) {
     const std::string_view name = part.name();
     if (name == "link" || name == "joint" || name == "material") continue;
@@ -223,6 +225,18 @@ Description parseFile(const std::filesystem::path& file) {
   return out;
 }
 
+namespace {
+
+// Of the child in the joint's frame at the start.
+Posed motionOf(const Joint& joint) {
+  if (joint.kind == JointKind::Prismatic) return {joint.axis * joint.start, {}};
+  const SinCosd half = sinCos(joint.start / 2);
+  const Vec3d v = joint.axis * half.sin;
+  return {{}, {half.cos, v.x, v.y, v.z}};
+}
+
+}  // namespace
+
 std::vector<Posed> linkPoses(const Description& description) {
   std::vector<Posed> out(description.links.size());
   for (const int index : description.order) {
@@ -231,6 +245,7 @@ std::vector<Posed> linkPoses(const Description& description) {
     const Joint& joint = description.joints[static_cast<size_t>(link.joint)];
     Posed& pose = out[static_cast<size_t>(index)];
     pose = out[static_cast<size_t>(joint.parent)] * joint.pose;
+    if (joint.start != 0) pose = pose * motionOf(joint);
     pose.rotation = mjcf::normalized(pose.rotation);
   }
   if (!description.anchor) return out;

@@ -36,9 +36,14 @@ class Parser {
   void readAxis(Elem elem, Joint& joint);
   void readLimit(Elem elem, Joint& joint);
   void readDynamics(Elem elem, Joint& joint);
+  void boundLimit(Elem elem, const Joint& joint, Limit& limit);
   void readMimic(Elem elem, Joint& joint);
   void dropMimicLoops();
+  void resolveMimics();
+  void setStarts();
+  void setMimicStart(size_t joint);
   void readTransmission(Elem elem);
+  double readReduction(Elem elem, double otherwise);
 
   void attach(size_t joint);
   void attachToWorld(size_t joint);

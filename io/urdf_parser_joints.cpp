@@ -1,7 +1,10 @@
 // Walks a URDF file: joints, and the tree that they make of the links.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "io/mjcf_values.h"
 #include "io/urdf_parser.h"
 
 namespace avbd::urdf {
@@ -10,11 +13,15 @@ namespace {
 
 constexpr const char* kKinds[] = {"fixed", "revolute", "continuous", "prismatic", "floating", "planar", "spherical"};
 
-bool turnsOrSlides(JointKind kind) {
-  return kind == JointKind::Revolute || kind == JointKind::Continuous || kind == JointKind::Prismatic;
-}
+// Beyond these no start can be told apart from its neighbours, and bounds bound nothing.
+constexpr double kMostAngle = 1e5, kMostLength = 1e6;
+double mostOf(JointKind kind) { return kind == JointKind::Prismatic ? kMostLength : kMostAngle; }
 
 }  // namespace
+
+bool hasOneCoordinate(JointKind kind) {
+  return kind == JointKind::Revolute || kind == JointKind::Continuous || kind == JointKind::Prismatic;
+}
 
 const char* nameOf(JointKind kind) { return kKinds[static_cast<size_t>(kind)]; }
 
@@ -79,7 +86,7 @@ void Parser::readJoint(Elem elem) {
 
 void Parser::readAxis(Elem elem, Joint& joint) {
   const auto axis = source_.only(elem, "axis");
-  const bool needed = turnsOrSlides(joint.kind) || joint.kind == JointKind::Planar;
+  const bool needed = hasOneCoordinate(joint.kind) || joint.kind == JointKind::Planar;
   if (!axis) {
     if (needed) note(elem, "no <axis>: URDF's default x is taken");
     return;
@@ -110,19 +117,37 @@ void Parser::readLimit(Elem elem, Joint& joint) {
   out.velocity = source_.number(*limit, "velocity", 0);
   for (const char* name : {"effort", "velocity"}) {
     if (source_.number(*limit, name, 0) < 0) source_.fail(*limit, name, limit->get(name), "must be finite and >= 0");
-  }
-  if (bounded && out.lower > out.upper) {
-    note(*limit, "lower is greater than upper: swapped");
-    std::swap(out.lower, out.upper);
+    // What could neither push nor move would be a fixed joint; exporters write 0 where nobody filled it in.
+    if (limit->has(name) && source_.number(*limit, name, 0) == 0 && joint.kind != JointKind::Fixed) {
+      note(*limit, std::string(name) + " of 0: taken as no bound");
+    }
   }
   const bool given = limit->has("lower") || limit->has("upper");
   if (bounded && !given) note(*limit, "neither lower nor upper: both are 0 by URDF's rule");
   if (joint.kind == JointKind::Continuous && given) note(*limit, "bounds of a continuous joint are not used");
-  if (joint.kind == JointKind::Revolute && std::max(std::abs(out.lower), std::abs(out.upper)) > 10 * std::numbers::pi) {
-    note(*limit, "bounds of more than five turns: taken as radians, but look like degrees");
-  }
-  if (bounded && (out.lower > 0 || out.upper < 0)) note(*limit, "position 0 is outside the bounds");
+  if (joint.kind == JointKind::Planar && given) note(*limit, "bounds of a planar joint are not used");
+  if (bounded) boundLimit(*limit, joint, out);
   joint.limit = out;
+}
+
+void Parser::boundLimit(Elem elem, const Joint& joint, Limit& limit) {
+  if (limit.lower > limit.upper) {
+    note(elem, "lower is greater than upper: swapped");
+    std::swap(limit.lower, limit.upper);
+  }
+  const double most = std::max(std::abs(limit.lower), std::abs(limit.upper));
+  if (joint.kind == JointKind::Revolute && most > 10 * std::numbers::pi) {
+    note(elem, "bounds of more than five turns: taken as radians, but look like degrees");
+  }
+  if (limit.lower > mostOf(joint.kind) || limit.upper < -mostOf(joint.kind)) {
+    source_.fail(elem, "lower or upper", elem.get(limit.lower > 0 ? "lower" : "upper"),
+                 "must leave a position of at most 1e5 rad or 1e6 m in magnitude");
+  }
+  if (most > mostOf(joint.kind)) note(elem, "a bound of more than 1e5 rad or 1e6 m: taken as none");
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  if (limit.lower < -mostOf(joint.kind)) limit.lower = -kNone;
+  if (limit.upper > mostOf(joint.kind)) limit.upper = kNone;
+  if (limit.lower > 0 || limit.upper < 0) note(elem, "position 0 is outside the bounds: starts at the nearest one");
 }
 
 void Parser::readDynamics(Elem elem, Joint& joint) {
@@ -136,6 +161,7 @@ void Parser::readDynamics(Elem elem, Joint& joint) {
     }
   }
   if (const auto safety = source_.only(elem, "safety_controller")) {
+    noteUnused(*safety, "not used");
     joint.safety =
         Safety{source_.number(*safety, "soft_lower_limit", 0), source_.number(*safety, "soft_upper_limit", 0),
                source_.number(*safety, "k_position", 0), source_.number(*safety, "k_velocity", 0)};
@@ -158,6 +184,12 @@ void Parser::readMimic(Elem elem, Joint& joint) {
     note(*mimic, "no joint is named " + mjcf::quoted(name) + ": mimic left out");
     return;
   }
+  const JointKind theirs = out_.joints[static_cast<size_t>(found->second)].kind;
+  if (!hasOneCoordinate(joint.kind) || !hasOneCoordinate(theirs)) {
+    note(*mimic, std::string("between a ") + nameOf(joint.kind) + " and a " + nameOf(theirs) +
+                     " joint, where both must have one coordinate: mimic left out");
+    return;
+  }
   joint.mimic = Mimic{found->second, multiplier, offset};
 }
 
@@ -176,20 +208,98 @@ void Parser::dropMimicLoops() {
   }
 }
 
+// Chains are followed to the joint at their end, each joint once.
+void Parser::resolveMimics() {
+  std::vector<bool> done(out_.joints.size());
+  std::vector<size_t> chain;
+  for (size_t start = 0; start < out_.joints.size(); ++start) {
+    for (size_t at = start; out_.joints[at].mimic && !done[at];
+         at = static_cast<size_t>(out_.joints[at].mimic->joint)) {
+      chain.push_back(at);
+    }
+    for (; !chain.empty(); chain.pop_back()) {
+      Mimic& mimic = *out_.joints[chain.back()].mimic;
+      done[chain.back()] = true;
+      const auto& next = out_.joints[static_cast<size_t>(mimic.joint)].mimic;
+      if (next) {
+        mimic = {next->joint, mimic.multiplier * next->multiplier, mimic.multiplier * next->offset + mimic.offset};
+      }
+      constexpr double kMost = 1e9;
+      if (std::abs(mimic.multiplier) > kMost || std::abs(mimic.offset) > kMost) {
+        source_.fail(jointElems_[chain.back()],
+                     "mimic: multiplier and offset, of a whole chain too, must be at most 1e9");
+      }
+    }
+  }
+}
+
+// Zero, or the bound nearest to it; what mimics follows.
+void Parser::setStarts() {
+  for (Joint& joint : out_.joints) {
+    const bool bounded = joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic;
+    if (bounded && joint.limit) joint.start = std::clamp(0.0, joint.limit->lower, joint.limit->upper);
+  }
+  for (size_t i = 0; i < out_.joints.size(); ++i) {
+    if (out_.joints[i].mimic) setMimicStart(i);
+  }
+}
+
+void Parser::setMimicStart(size_t index) {
+  Joint& joint = out_.joints[index];
+  const Mimic& mimic = *joint.mimic;
+  joint.start = mimic.multiplier * out_.joints[static_cast<size_t>(mimic.joint)].start + mimic.offset;
+  if (std::abs(joint.start) > mostOf(joint.kind)) {
+    source_.fail(jointElems_[index], "its mimic starts it beyond 1e5 rad or 1e6 m");
+  }
+  const bool bounded = joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic;
+  if (!bounded || !joint.limit) return;
+  constexpr double kRounding = 1e-6;
+  Limit& limit = *joint.limit;
+  if (joint.start >= limit.lower - kRounding && joint.start <= limit.upper + kRounding) return;
+  note(jointElems_[index], "its mimic starts it outside of its bounds: they are left out");
+  limit.lower = -std::numeric_limits<double>::infinity();
+  limit.upper = -limit.lower;
+}
+
+// Where drivers of different ages write it.
+double Parser::readReduction(Elem elem, double otherwise) {
+  const auto reduction = source_.only(elem, "mechanicalReduction");
+  if (!reduction) return otherwise;
+  std::vector<double> value;
+  mjcf::NumberFault fault;
+  const std::string_view text = reduction->node.text().get();
+  if (!mjcf::readNumbers(text, 1, value, fault) || value.size() != 1 || value[0] == 0) {
+    source_.fail(*reduction, "text", text, "must be a finite number that is not 0");
+  }
+  return value[0];
+}
+
 void Parser::readTransmission(Elem elem) {
   Transmission out;
   out.name = std::string(source_.text(elem, "name"));
   out.type = std::string(source_.text(elem, "type"));
+  out.where = source_.where(elem);
   if (const auto type = source_.only(elem, "type")) out.type = type->node.text().get();
-  noteUnused(elem, "kept, but drives nothing");
+  const double common = readReduction(elem, 1);
+  std::vector<Elem> joints, actuators;
   for (const Elem& part : source_.children(elem)) {
-    if (part.name() != "joint") continue;
-    const auto found = jointsByName_.find(source_.text(part, "name"));
+    if (part.name() == "joint") joints.push_back(part);
+    if (part.name() == "actuator") actuators.push_back(part);
+  }
+  if (joints.size() > 1) note(elem, "a transmission of several joints: taken as one of each");
+  if (actuators.size() > joints.size()) note(elem, "more actuators than joints: the last are left out");
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const auto found = jointsByName_.find(source_.text(joints[i], "name"));
     if (found == jointsByName_.end()) {
-      note(part, "no joint has this name");
-    } else {
-      out.joints.push_back(found->second);
+      note(joints[i], "no joint has this name");
+      continue;
     }
+    Driven driven{found->second, std::string(found->first), readReduction(joints[i], common)};
+    if (i < actuators.size()) {
+      driven.reduction = readReduction(actuators[i], driven.reduction);
+      if (const auto name = source_.text(actuators[i], "name"); !name.empty()) driven.actuator = name;
+    }
+    out.driven.push_back(std::move(driven));
   }
   out_.transmissions.push_back(std::move(out));
 }

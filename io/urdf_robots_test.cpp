@@ -1,6 +1,7 @@
 // Real robots: every URDF of Debian's libsimbody-dev, with its meshes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -60,7 +61,7 @@ fs::path Robots::folder_;
 
 struct Expected {
   const char* file;
-  size_t links, joints, shapes, meshes;
+  size_t links, joints, moving, shapes, meshes;
   double mass;  // [kg] of all <mass> elements
 };
 
@@ -72,6 +73,12 @@ size_t meshesIn(const Model& model) {
     }
   }
   return count;
+}
+
+double massOf(const Model& model) {
+  double mass = 0;
+  for (const NamedBody& body : model.bodies) mass += static_cast<double>(model.world.mass(body.id));
+  return mass;
 }
 
 void expectRead(const fs::path& file, const Expected& e, const UrdfOptions& options) {
@@ -87,24 +94,23 @@ void expectRead(const fs::path& file, const Expected& e, const UrdfOptions& opti
     std::string notes;
     for (const std::string& note : model.notes) notes += note + "\n";
     EXPECT_LT(model.notes.size(), 60u) << notes;
+    EXPECT_EQ(model.joints.size(), e.moving) << e.file;
+    EXPECT_EQ(model.actuators.size(), e.moving) << e.file;
     if (floating) {
-      EXPECT_NEAR(model.world.mass(model.bodies.at(0).id), e.mass, 1e-6 * e.mass) << e.file;
-      std::printf("%-32s links %2zu joints %2zu shapes %3zu hulls %2zu notes %2zu mass %.3f kg\n", e.file, e.links,
-                  e.joints, e.shapes, e.meshes, model.notes.size(),
-                  static_cast<double>(model.world.mass(model.bodies.at(0).id)));
+      EXPECT_NEAR(massOf(model), e.mass, 1e-6 * e.mass) << e.file;
     }
   }
 }
 
 TEST_F(Robots, AreRead) {
-  const Expected atlases[] = {{"atlas_v4.urdf", 47, 46, 80, 1, 159.854574},
-                              {"atlas_v4_free_pelvis.urdf", 48, 47, 80, 1, 159.854574},
-                              {"atlas_v4_grounded.urdf", 47, 47, 80, 1, 159.854574},
-                              {"atlas_v4_locked_pelvis.urdf", 48, 47, 80, 1, 159.854574},
-                              {"atlas_v4_upper.urdf", 36, 35, 50, 1, 123.100574}};
+  const Expected atlases[] = {{"atlas_v4.urdf", 47, 46, 29, 80, 1, 159.854574},
+                              {"atlas_v4_free_pelvis.urdf", 48, 47, 29, 80, 1, 159.854574},
+                              {"atlas_v4_grounded.urdf", 47, 47, 29, 80, 1, 159.854574},
+                              {"atlas_v4_locked_pelvis.urdf", 48, 47, 29, 80, 1, 159.854574},
+                              {"atlas_v4_upper.urdf", 36, 35, 17, 50, 1, 123.100574}};
   for (const Expected& e : atlases) expectRead(atlas(e.file), e, {});
   for (const char* name : {"ur10_robot.urdf", "ur10_joint_limited_robot.urdf"}) {
-    expectRead(ur10(name), {name, 9, 8, 7, 7, 32.7}, {});
+    expectRead(ur10(name), {name, 9, 8, 6, 7, 7, 32.7}, {});
   }
 }
 
@@ -119,7 +125,7 @@ TEST_F(Robots, WithMeshesMissingNeedsToBeAskedFor) {
   }
   UrdfOptions options;
   options.badMesh = BadMesh::Note;
-  expectRead(file, {"atlas_v4_robotiq_hands.urdf", 73, 72, 82, 1, 163.734854}, options);
+  expectRead(file, {"atlas_v4_robotiq_hands.urdf", 73, 72, 53, 82, 1, 163.734854}, options);
 }
 
 double lowestPoint(const Model& model, BodyId body) {
@@ -143,22 +149,99 @@ double lowestPoint(const Model& model, BodyId body) {
   return lowest;
 }
 
-TEST_F(Robots, AtlasDroppedStaysFiniteAndAboveGround) {
+// Of all bodies but the last, the ground.
+double lowestOfRobot(const Model& model) {
+  double lowest = 1e9;
+  for (size_t i = 0; i + 1 < model.bodies.size(); ++i) {
+    lowest = std::min(lowest, lowestPoint(model, model.bodies[i].id));
+  }
+  return lowest;
+}
+
+TEST_F(Robots, AtlasDroppedLandsOnItsFeetAndStands) {
   UrdfOptions options;
   options.floating = true;
   options.ground = 0.3;
   Model model = readUrdf(atlas("atlas_v4.urdf"), options);
-  ASSERT_EQ(model.bodies.size(), 2u);
-  const BodyId robot = model.bodies[0].id;
-  const double ground = model.world.pose(model.bodies[1].id).position.z;
-  EXPECT_NEAR(lowestPoint(model, robot) - ground, 0.3, 1e-4);
+  ASSERT_EQ(model.bodies.size(), 31u);
+  const double ground = model.world.pose(model.bodies.back().id).position.z;
+  EXPECT_NEAR(lowestOfRobot(model) - ground, 0.3, 1e-4);
   double deepest = 0;
-  for (int i = 0; i < 120; ++i) {
-    model.world.step(1.0f / 60);  // throws where the numbers end
-    deepest = std::max(deepest, ground - lowestPoint(model, robot));
+  for (int i = 0; i < 4 * 240; ++i) {
+    model.world.step(static_cast<float>(model.dt));  // throws where the numbers end
+    deepest = std::max(deepest, ground - lowestOfRobot(model));
   }
-  EXPECT_LT(deepest, 0.04);  // as it lands at 2.4 m/s, 40 mm a step
-  EXPECT_NEAR(lowestPoint(model, robot), ground, 0.005);
+  EXPECT_LT(deepest, 0.011);  // as it lands at 2.4 m/s, 10 mm a step
+  EXPECT_NEAR(lowestOfRobot(model), ground, 0.005);
+  const auto isPelvis = [](const NamedBody& body) { return body.name == "pelvis"; };
+  const auto pelvis = std::find_if(model.bodies.begin(), model.bodies.end(), isPelvis);
+  ASSERT_NE(pelvis, model.bodies.end());
+  EXPECT_GT(rotate(model.world.pose(pelvis->id).rotation, Vec3{0, 0, 1}).z, 0.999f);
+  EXPECT_LT(model.world.kineticEnergy(), 0.01);
+}
+
+struct Held {
+  double gap = 0, angle = 0;      // [m], [rad] of the joints, the largest of any step
+  double turned = 0, excess = 0;  // [rad] from the start; beyond the bounds
+};
+Held holdFor(Model& model, double seconds) {
+  std::vector<double> start;
+  for (const NamedJoint& joint : model.joints) start.push_back(model.world.coordinate(joint.id, joint.axis).position);
+  Held out;
+  for (int i = 0; i < seconds * 60; ++i) {
+    model.world.step(1.0f / 60);
+    for (size_t k = 0; k < model.joints.size(); ++k) {
+      const JointId id = model.joints[k].id;
+      const double q = model.world.coordinate(id, model.joints[k].axis).position;
+      const JointLimit limit = model.world.hingeJoint(id).limit;
+      out.gap = std::max(out.gap, model.world.gap(id));
+      out.angle = std::max(out.angle, model.world.angleError(id));
+      out.turned = std::max(out.turned, std::abs(q - start[k]));
+      out.excess = std::max({out.excess, static_cast<double>(limit.lower) - q, q - static_cast<double>(limit.upper)});
+    }
+  }
+  return out;
+}
+
+void print(const fs::path& file, const Held& held) {
+  std::printf("%-34s gap %.4f mm, angle %.4f mrad, turned %.2f mrad, beyond bounds %.4f mrad\n",
+              file.filename().c_str(), held.gap * 1e3, held.angle * 1e3, held.turned * 1e3, held.excess * 1e3);
+}
+
+TEST_F(Robots, AreHeldWhereTheyStart) {
+  for (const fs::path& file : {atlas("atlas_v4.urdf"), atlas("atlas_v4_upper.urdf"), ur10("ur10_robot.urdf"),
+                               ur10("ur10_joint_limited_robot.urdf")}) {
+    Model model = readUrdf(file);
+    const Held held = holdFor(model, 2);
+    EXPECT_LT(held.gap, 1e-3) << file;
+    EXPECT_LT(held.angle, 1e-3) << file;
+    EXPECT_LT(held.turned, 0.02) << file;
+    EXPECT_LT(held.excess, 1e-3) << file;
+    print(file, held);
+  }
+}
+
+// 160 kg beside one foot: more than its ankle's 45 N m hold.
+TEST_F(Robots, AtlasOnOneFootTipsAsItsEffortsSay) {
+  Model model = readUrdf(atlas("atlas_v4_grounded.urdf"));
+  const Held held = holdFor(model, 2);
+  EXPECT_LT(held.gap, 1e-3);
+  EXPECT_LT(held.excess, 1e-3);
+  EXPECT_GT(held.turned, 0.5);
+  print("atlas_v4_grounded.urdf", held);
+}
+
+TEST_F(Robots, LimpTheyHangFromTheirRootWithinTheirBounds) {
+  for (const fs::path& file : {atlas("atlas_v4.urdf"), ur10("ur10_joint_limited_robot.urdf")}) {
+    UrdfOptions options;
+    options.limp = true;
+    Model model = readUrdf(file, options);
+    const Held hung = holdFor(model, 2);
+    EXPECT_LT(hung.gap, 1e-3) << file;
+    EXPECT_GT(hung.turned, 0.5) << file;
+    EXPECT_LT(hung.excess, 2e-3) << file;
+    print(file, hung);
+  }
 }
 
 TEST_F(Robots, TruncatedAndMutatedEndInAModelOrAFileError) {

@@ -38,6 +38,13 @@ Quat turned(Vec3 axis, double angle) {
   return {static_cast<float>(std::cos(angle / 2)), axis.x * s, axis.y * s, axis.z * s};
 }
 
+Quat along(Vec3 axis) {
+  const Vec3 turn = cross(Vec3{1, 0, 0}, axis);
+  if (dot(turn, turn) < 1e-12f) return axis.x > 0 ? Quat{} : Quat{0, 0, 1, 0};
+  const float sine = length(turn);
+  return turned(turn * (1 / sine), std::atan2(static_cast<double>(sine), static_cast<double>(axis.x)));
+}
+
 std::string text(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%g", value);
@@ -106,18 +113,19 @@ BodyId Build::ball(std::string name, float radius, Vec3d at, float mass, Velocit
   return add(std::move(name), def);
 }
 
-Vec3d Build::inBody(BodyId id, Vec3d at) const {
+Pose Build::inBody(BodyId id, const Pose& at) const {
   if (!id) return at;
   const Pose p = model_.world.pose(id);
-  return rotate(conjugate(p.rotation), at - p.position);
+  const Quat back = conjugate(p.rotation);
+  return {rotate(back, at.position - p.position), back * at.rotation};
 }
 
 JointId Build::joint(BodyId a, BodyId b, Vec3d at) {
   BallJoint def;
   def.bodyA = a;
   def.bodyB = b;
-  def.frameA.position = inBody(a, at);
-  def.frameB.position = inBody(b, at);
+  def.frameA.position = inBody(a, {at, {}}).position;
+  def.frameB.position = inBody(b, {at, {}}).position;
   return model_.world.create(def);
 }
 

@@ -10,6 +10,8 @@ inline constexpr float kGravity = 9.81f;
 
 /// Rotation by an angle [rad] about a unit axis.
 Quat turned(Vec3 axis, double angle);
+/// The shortest turn that takes x to a unit axis.
+Quat along(Vec3 axis);
 
 /// A model under construction: every call adds one body.
 class Build {
@@ -29,13 +31,26 @@ class Build {
   BodyId ball(std::string name, float radius, Vec3d at, float mass, Velocity velocity = {});
   /// A ball joint at a world point; a null body is the world.
   JointId joint(BodyId a, BodyId b, Vec3d at);
+  /// `def` between two bodies, both its frames at this world pose; a null body is the world.
+  template <class Joint>
+  JointId join(Joint def, BodyId a, BodyId b, const Pose& at) {
+    def.bodyA = a;
+    def.bodyB = b;
+    def.frameA = inBody(a, at);
+    def.frameB = inBody(b, at);
+    return model_.world.create(def);
+  }
+  /// A world pose as the body sees it.
+  Pose inBody(BodyId id, const Pose& at) const;
+  /// Tells a coordinate of a joint by this name.
+  void name(std::string name, JointId joint, JointAxis axis) {
+    model_.joints.push_back({std::move(name), joint, axis});
+  }
 
   World& world() { return model_.world; }
   Model take() { return std::move(model_); }
 
  private:
-  Vec3d inBody(BodyId id, Vec3d at) const;
-
   Model model_;
   Material material_;
   Filter filter_;

@@ -102,8 +102,11 @@ constexpr std::array<std::string_view, 86> kOrder{"rest",
 
 std::vector<Line> collect() {
   std::vector<Line> list;
-  for (const auto group : {restLines, frictionLines, motionLines, collisionLines, shapeLines, scaleLines, jointLines,
-                           driveLines, stateLines, badInputLines, skippedLines})
+  for (const auto group : {restLines,      frictionLines, motionLines,  collisionLines,       shapeLines,
+                           scaleLines,     jointLines,    limitLines,   driveLines,           driveTypeLines,
+                           couplingLines,  customLines,   breakLines,   mechanismLines,       treeLines,
+                           treeDriveLines, loopLines,     scissorLines, inverseDynamicsLines, ragdollLines,
+                           stateLines,     badInputLines, skippedLines})
     for (Line& line : group()) list.push_back(std::move(line));
   const auto rank = [](const Line& line) {
     return std::find(kOrder.begin(), kOrder.end(), line.name) - kOrder.begin();
@@ -121,6 +124,8 @@ const std::vector<Scene>& all() {
     append(list, chainScenes());
     append(list, stackScenes());
     append(list, netScenes());
+    append(list, scissorScenes());
+    append(list, ragdollScenes());
     return list;
   }();
   return scenes;

@@ -9,6 +9,8 @@ std::vector<Scene> pileScenes();
 std::vector<Scene> stackScenes();
 std::vector<Scene> chainScenes();
 std::vector<Scene> netScenes();
+std::vector<Scene> scissorScenes();
+std::vector<Scene> ragdollScenes();
 
 /// The classic house of five storeys of leaning cards, made in the order that this seed draws.
 Model cardHouse(const Settings& settings, uint32_t seed);
@@ -31,7 +33,19 @@ std::vector<Line> collisionLines();
 std::vector<Line> shapeLines();
 std::vector<Line> scaleLines();
 std::vector<Line> jointLines();
+std::vector<Line> limitLines();
 std::vector<Line> driveLines();
+std::vector<Line> driveTypeLines();
+std::vector<Line> couplingLines();
+std::vector<Line> customLines();
+std::vector<Line> breakLines();
+std::vector<Line> mechanismLines();
+std::vector<Line> treeLines();
+std::vector<Line> treeDriveLines();
+std::vector<Line> loopLines();
+std::vector<Line> scissorLines();
+std::vector<Line> inverseDynamicsLines();
+std::vector<Line> ragdollLines();
 std::vector<Line> stateLines();
 std::vector<Line> badInputLines();
 /// What is not built yet, by name.

@@ -1,25 +1,14 @@
 // Acceptance, joints: drives against the equation they stand for, and motors with a bounded torque.
 #include <cmath>
 
-#include "scenes/build.h"
 #include "scenes/catalogue.h"
+#include "scenes/rig.h"
 #include "scenes/trials.h"
 
 namespace avbd::scenes {
 namespace {
 
-constexpr double kTurn = 3.14159265358979323846 / 4;
 constexpr double kStep = 1.0 / 240;
-
-/// How the frames of a joint lie: frame A turned about z, body B turned, both.
-struct Placing {
-  const char* name;
-  bool frameA, bodyB;
-  Quat frame() const { return turned({0, 0, 1}, frameA ? kTurn : 0); }
-  Quat body() const { return turned({0, 1, 0}, bodyB ? kTurn : 0); }
-};
-constexpr Placing kPlacings[] = {
-    {"identity", false, false}, {"frame_turned", true, false}, {"body_turned", false, true}, {"both", true, true}};
 
 /// One coordinate to be driven: of a body of this mass (slider) or this moment of inertia about the axis (hinge).
 struct Driven {
@@ -28,25 +17,9 @@ struct Driven {
   JointDrive drive;
 };
 
-struct Rig {
-  Model model;
-  JointId joint;
-  BodyId body;
-};
-
-Rig rigOf(const Settings& settings, const Driven& driven, const Placing& placing) {
-  WorldDef def;
-  def.gravity = {};
-  Build build("drive", settings, def);
-  build.filter(kGhost);
-  // A box's moment about any axis through its middle, for equal sides s: m s^2 / 6; here of half side 0.5.
-  const double mass = driven.hinge ? 6 * driven.inertia : driven.inertia;
-  const BodyId body = build.box("body", {0.5f, 0.5f, 0.5f}, {}, static_cast<float>(mass), {}, placing.body());
-  const Pose a{{}, placing.frame()}, b{{}, conjugate(placing.body()) * placing.frame()};
-  const JointId joint =
-      driven.hinge ? build.world().create(HingeJoint{.bodyB = body, .frameA = a, .frameB = b, .drive = driven.drive})
-                   : build.world().create(SliderJoint{.bodyB = body, .frameA = a, .frameB = b, .drive = driven.drive});
-  return {build.take(), joint, body};
+Rig driveRig(const Settings& settings, const Driven& driven, const Placing& placing) {
+  if (driven.hinge) return rigOf(settings, placing, HingeJoint{.drive = driven.drive}, {.mass = 6 * driven.inertia});
+  return rigOf(settings, placing, SliderJoint{.drive = driven.drive}, {.mass = driven.inertia});
 }
 
 std::string paramsOf(const Driven& driven, const Placing& placing) {
@@ -61,7 +34,7 @@ struct Response {
 };
 
 Response respond(const Settings& settings, const Driven& driven, const Placing& placing, double k, double d) {
-  Rig rig = rigOf(settings, driven, placing);
+  Rig rig = driveRig(settings, driven, placing);
   const double m = driven.inertia, h = kStep, decay = d / (2 * m), omega = std::sqrt(k / m - decay * decay);
   double q = 0, v = 0, squares = 0;
   Response response;
@@ -113,7 +86,7 @@ std::vector<Figure> motor(const Settings& settings) {
   for (const Placing& placing : kPlacings)
     for (const float most : {100.0f, 4.0f}) {
       Driven driven{true, 1, {.damping = 1e4f, .velocity = 1, .maxForce = most}};
-      Rig rig = rigOf(settings, driven, placing);
+      Rig rig = driveRig(settings, driven, placing);
       const Vec3 axis = rotate(placing.frame(), Vec3{1, 0, 0});
       for (int i = 0; i < 120; ++i) {
         rig.model.world.addTorque(rig.body, axis * -5.0f);  // [N m]: between the two limits

@@ -1,9 +1,10 @@
 // Acceptance, motion: rolling, bouncing, spinning, falling together.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "scenes/build.h"
 #include "scenes/catalogue.h"
+#include "scenes/joint_kinds.h"
 #include "scenes/trials.h"
 
 namespace avbd::scenes {
@@ -57,19 +58,13 @@ std::vector<Figure> dzhanibekov(const Settings& settings) {
           {"turned_over", "", turned, -1, -0.9, "cosine"}};
 }
 
-enum class Link { Contact, Ball, Fixed };
-
-double fallError(const Settings& settings, Link link, Vec3d offset) {
+/// A pair in contact, or joined where they touch; what spans goes from middle to middle.
+double fallError(const Settings& settings, std::optional<JointKind> kind, Vec3d offset) {
   Build build("fall_together", settings);
   const BodyId a = build.box("a", kUnit, {0, 0, 0}, 1000), b = build.box("b", kUnit, offset, 200);
-  if (link == Link::Ball) build.joint(a, b, offset * 0.5);
-  if (link == Link::Fixed) {
-    FixedJoint def;
-    def.bodyA = a;
-    def.bodyB = b;
-    def.frameA.position = offset * 0.5;
-    def.frameB.position = offset * -0.5;
-    build.world().create(def);
+  if (kind) {
+    const Vec3d middle = offset * 0.5;
+    connect(build, *kind, a, b, spans(*kind) ? Spot{{}, offset} : Spot{middle, middle, along(toFloat(offset))});
   }
   Model model = build.take();
   double worst = 0;
@@ -85,15 +80,17 @@ double fallError(const Settings& settings, Link link, Vec3d offset) {
   return worst;
 }
 
+// A pulley hangs from its wheels: its pair does not fall.
 std::vector<Figure> fallTogether(const Settings& settings) {
-  const std::pair<Link, const char*> links[] = {
-      {Link::Contact, "contact"}, {Link::Ball, "ball"}, {Link::Fixed, "fixed"}};
+  std::vector<std::optional<JointKind>> kinds{std::nullopt};
+  for (const JointKind kind : kJointKinds)
+    if (kind != JointKind::Pulley) kinds.push_back(kind);
   std::vector<Figure> figures;
-  for (const auto& [link, name] : links) {
-    const std::string kind = std::string("pair=") + name;
-    figures.push_back(atMost("acceleration", fallError(settings, link, {0, 1, 0}), 1e-4, "of g", kind + " side=above"));
+  for (const auto& kind : kinds) {
+    const std::string pair = std::string("pair=") + (kind ? nameOf(*kind) : "contact");
+    figures.push_back(atMost("acceleration", fallError(settings, kind, {0, 1, 0}), 1e-4, "of g", pair + " side=above"));
     figures.push_back(
-        atMost("acceleration", fallError(settings, link, {1, 0, 0}), 1e-4, "of g", kind + " side=beside"));
+        atMost("acceleration", fallError(settings, kind, {1, 0, 0}), 1e-4, "of g", pair + " side=beside"));
   }
   return figures;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <unordered_map>
 
 namespace avbd::scenes {
@@ -10,15 +11,77 @@ namespace {
 
 uint64_t pairKey(uint32_t a, uint32_t b) { return (static_cast<uint64_t>(std::min(a, b)) << 32) | std::max(a, b); }
 
-Vec3d place(std::span<const Pose> poses, uint32_t body, Vec3d point) {
-  return body == kWorldBody ? point : poses[body].position + rotate(poses[body].rotation, point);
+using Slots = std::unordered_map<uint32_t, uint32_t>;
+
+Pose place(std::span<const Pose> poses, uint32_t body, const Pose& frame) {
+  return body == kWorldBody ? frame : poses[body] * frame;
 }
 
+constexpr uint8_t bit(JointAxis axis) { return static_cast<uint8_t>(1u << static_cast<unsigned>(axis)); }
+constexpr uint8_t kLinear = 7, kAll = 63;
+
+uint8_t lockedOf(const BallJoint&) { return kLinear; }
+uint8_t lockedOf(const FixedJoint&) { return kAll; }
+uint8_t lockedOf(const HingeJoint&) { return kAll & ~bit(JointAxis::Twist); }
+uint8_t lockedOf(const SliderJoint&) { return kAll & ~bit(JointAxis::LinearX); }
+uint8_t lockedOf(const DistanceJoint&) { return 0; }
+uint8_t lockedOf(const D6Joint& joint) {
+  uint8_t locked = 0;
+  for (size_t i = 0; i < 6; ++i)
+    if (joint.axes[i].motion == AxisMotion::Locked) locked = static_cast<uint8_t>(locked | 1u << i);
+  return locked;
+}
+
+uint32_t slotOf(const Slots& slots, BodyId id) { return id ? slots.at(id.index) : kWorldBody; }
+
 template <class Joint>
-void addJoint(Layout& layout, const Joint& joint, const std::unordered_map<uint32_t, uint32_t>& slots) {
-  const auto slot = [&](BodyId id) { return id ? slots.at(id.index) : kWorldBody; };
-  const uint32_t a = slot(joint.bodyA), b = slot(joint.bodyB);
-  layout.anchors.push_back({a, b, joint.frameA.position, joint.frameB.position});
+void addJoint(Layout& layout, const Joint& joint, const Slots& slots) {
+  const uint32_t a = slotOf(slots, joint.bodyA), b = slotOf(slots, joint.bodyB);
+  Layout::Anchors& to = layout.anchors.emplace_back();
+  to = {a,
+        b,
+        joint.frameA.position,
+        joint.frameB.position,
+        joint.frameA.rotation,
+        joint.frameB.rotation,
+        lockedOf(joint),
+        false,
+        0,
+        0};
+  if constexpr (std::is_same_v<Joint, DistanceJoint>) to.spans = true, to.shortest = joint.min, to.longest = joint.max;
+}
+
+void addRope(Layout& layout, const PulleyJoint& joint, const Slots& slots) {
+  layout.ropes.push_back({slotOf(slots, joint.bodyA), slotOf(slots, joint.bodyB), joint.frameA.position,
+                          joint.frameB.position, joint.wheelA, joint.wheelB, joint.ratio, joint.length, joint.slack});
+}
+
+double gapOf(const Layout::Anchors& j, const Pose& a, const Pose& b) {
+  const Vec3d offset = b.position - a.position;
+  const double far = length(offset);
+  if (j.spans) return std::max({0.0, far - j.longest, j.shortest - far});
+  if ((j.locked & kLinear) == kLinear) return far;
+  const Vec3d q = rotate(conjugate(a.rotation), offset);
+  return length(Vec3d{j.locked & 1 ? q.x : 0, j.locked & 2 ? q.y : 0, j.locked & 4 ? q.z : 0});
+}
+
+double gapOf(const Layout::Rope& j, std::span<const Pose> poses) {
+  const double a = length(place(poses, j.bodyA, {j.a, {}}).position - j.wheelA);
+  const double b = length(place(poses, j.bodyB, {j.b, {}}).position - j.wheelB);
+  const double beyond = a + j.ratio * b - j.length;
+  return j.slack ? std::max(0.0, beyond) : std::abs(beyond);
+}
+
+double angleOf(const Layout::Anchors& j, const Pose& a, const Pose& b) {
+  const Quat turn = conjugate(a.rotation) * b.rotation;
+  if ((j.locked & ~kLinear) == (kAll & ~kLinear))
+    return 2 * std::atan2(length(toDouble({turn.x, turn.y, turn.z})), std::abs(static_cast<double>(turn.w)));
+  const TwistSwing q = twistSwing(turn);
+  return length(Vec3d{j.locked & 8 ? q.twist : 0, j.locked & 16 ? q.y : 0, j.locked & 32 ? q.z : 0});
+}
+
+void raise(double& worst, double value) {
+  if (!(value <= worst)) worst = value;  // a NaN is kept
 }
 
 Vec3d crossProduct(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
@@ -50,7 +113,7 @@ bool Layout::mayTouch(uint32_t pieceA, uint32_t pieceB) const {
 Layout layoutOf(const World& world) {
   Layout layout;
   layout.bodies = world.bodies();
-  std::unordered_map<uint32_t, uint32_t> slots;
+  Slots slots;
   for (const BodyId id : layout.bodies) {
     const uint32_t slot = static_cast<uint32_t>(slots.size());
     slots[id.index] = slot;
@@ -61,11 +124,14 @@ Layout layoutOf(const World& world) {
   for (const auto& [a, b] : world.excludedPairs())
     layout.separated.insert(pairKey(slots.at(a.index), slots.at(b.index)));
   for (const JointId id : world.joints()) {
+    if (!world.isEnabled(id)) continue;
     if (world.type(id) == JointType::Ball) addJoint(layout, world.ballJoint(id), slots);
     if (world.type(id) == JointType::Fixed) addJoint(layout, world.fixedJoint(id), slots);
     if (world.type(id) == JointType::Hinge) addJoint(layout, world.hingeJoint(id), slots);
     if (world.type(id) == JointType::Slider) addJoint(layout, world.sliderJoint(id), slots);
     if (world.type(id) == JointType::D6) addJoint(layout, world.d6Joint(id), slots);
+    if (world.type(id) == JointType::Distance) addJoint(layout, world.distanceJoint(id), slots);
+    if (world.type(id) == JointType::Pulley) addRope(layout, world.pulleyJoint(id), slots);
   }
   return layout;
 }
@@ -86,11 +152,24 @@ Penetration penetrationOf(const Layout& layout, std::span<const Pose> poses) {
 
 double jointGapMax(const Layout& layout, std::span<const Pose> poses) {
   double worst = 0;
-  for (const Layout::Anchors& j : layout.anchors) {
-    const double gap = length(place(poses, j.bodyA, j.a) - place(poses, j.bodyB, j.b));
-    if (!(gap <= worst)) worst = gap;  // a NaN is kept
-  }
+  for (const Layout::Anchors& j : layout.anchors)
+    raise(worst, gapOf(j, place(poses, j.bodyA, {j.a, j.frameA}), place(poses, j.bodyB, {j.b, j.frameB})));
+  for (const Layout::Rope& j : layout.ropes) raise(worst, gapOf(j, poses));
   return worst;
+}
+
+double jointAngleMax(const Layout& layout, std::span<const Pose> poses) {
+  double worst = 0;
+  for (const Layout::Anchors& j : layout.anchors)
+    raise(worst, angleOf(j, place(poses, j.bodyA, {j.a, j.frameA}), place(poses, j.bodyB, {j.b, j.frameB})));
+  return worst;
+}
+
+TwistSwing twistSwing(Quat q) {
+  const double twist = 2 * std::atan2(q.w < 0 ? -q.x : q.x, std::abs(static_cast<double>(q.w)));
+  const Vec3d b = rotate(q, Vec3d{1, 0, 0});
+  const double sine = std::hypot(b.y, b.z), angle = std::atan2(sine, b.x), g = sine > 1e-12 ? angle / sine : 1;
+  return {twist, -g * b.z, g * b.y};
 }
 
 Displacement displacement(const Layout& layout, std::span<const Pose> from, std::span<const Pose> to) {
@@ -99,8 +178,8 @@ Displacement displacement(const Layout& layout, std::span<const Pose> from, std:
     if (!layout.dynamic[i]) continue;
     const Vec3d d = to[i].position - from[i].position;
     const double total = length(d), horizontal = std::hypot(d.x, d.z);
-    if (!(total <= worst.total)) worst.total = total;
-    if (!(horizontal <= worst.horizontal)) worst.horizontal = horizontal;
+    raise(worst.total, total);
+    raise(worst.horizontal, horizontal);
   }
   return worst;
 }

@@ -23,12 +23,24 @@ struct Layout {
   };
   struct Anchors {
     uint32_t bodyA = kWorldBody, bodyB = kWorldBody;
-    Vec3d a, b;  ///< in each body's frame; in the world for kWorldBody
+    Vec3d a, b;               ///< in each body's frame; in the world for kWorldBody
+    Quat frameA{}, frameB{};  ///< likewise
+    uint8_t locked = 7;       ///< coordinates that are held, bits by JointAxis
+    bool spans = false;       ///< the distance of the anchors is what is held, within the range below [m]
+    double shortest = 0, longest = 0;
+  };
+  /// A rope over two wheels.
+  struct Rope {
+    uint32_t bodyA = kWorldBody, bodyB = kWorldBody;
+    Vec3d a, b, wheelA, wheelB;
+    double ratio = 1, length = 0;
+    bool slack = true;
   };
   std::vector<BodyId> bodies;
   std::vector<char> dynamic;
   std::vector<Piece> pieces;
-  std::vector<Anchors> anchors;            ///< of ball and fixed joints
+  std::vector<Anchors> anchors;            ///< of joints of two bodies
+  std::vector<Rope> ropes;                 ///< of pulleys
   std::unordered_set<uint64_t> separated;  ///< pairs of bodies that a joint keeps from colliding
 
   bool mayTouch(uint32_t pieceA, uint32_t pieceB) const;
@@ -39,8 +51,17 @@ std::vector<Pose> posesOf(const World& world, const Layout& layout);
 
 /// Exact penetration over all pairs of the layout that may touch.
 Penetration penetrationOf(const Layout& layout, std::span<const Pose> poses);
-/// Largest distance between the two anchors of a joint [m].
+/// How far the worst joint is from holding: the distance of its anchors along locked axes, or what a rope or rod is
+/// out of its range [m].
 double jointGapMax(const Layout& layout, std::span<const Pose> poses);
+/// The same of angles about locked axes [rad].
+double jointAngleMax(const Layout& layout, std::span<const Pose> poses);
+
+/// Coordinates of a rotation as JointAxis tells them [rad].
+struct TwistSwing {
+  double twist = 0, y = 0, z = 0;
+};
+TwistSwing twistSwing(Quat rotation);
 
 struct Displacement {
   double total = 0, horizontal = 0;  ///< the largest of a dynamic body; horizontal leaves y out [m]

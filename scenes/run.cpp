@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "scenes/scene.h"
 
@@ -14,13 +15,21 @@ constexpr int kLateGap = 300;
 
 class AvbdEngine final : public Engine {
  public:
-  AvbdEngine(Model& model, const Layout& layout) : world_(model.world), layout_(layout) {}
-  void step(double dt) override { world_.step(static_cast<float>(dt)); }
-  void poses(std::span<Pose> out) const override { world_.getPoses(layout_.bodies, out); }
+  using Before = std::function<void(Model&, int64_t)>;
+  AvbdEngine(Model& model, const Layout& layout, Before before)
+      : model_(model), layout_(layout), before_(std::move(before)) {}
+  void prepare() override {
+    if (before_) before_(model_, steps_);
+    ++steps_;
+  }
+  void step(double dt) override { model_.world.step(static_cast<float>(dt)); }
+  void poses(std::span<Pose> out) const override { model_.world.getPoses(layout_.bodies, out); }
 
  private:
-  World& world_;
+  Model& model_;
   const Layout& layout_;
+  Before before_;
+  int64_t steps_ = 0;
 };
 
 void raise(double& peak, double value) {
@@ -53,8 +62,8 @@ void finishRun(Evidence& e, const Layout& layout, const Watch& watch, std::span<
 
 }  // namespace
 
-std::unique_ptr<Engine> avbdEngine(Model& model, const Layout& layout) {
-  return std::make_unique<AvbdEngine>(model, layout);
+std::unique_ptr<Engine> avbdEngine(Model& model, const Layout& layout, std::function<void(Model&, int64_t)> before) {
+  return std::make_unique<AvbdEngine>(model, layout, std::move(before));
 }
 
 Evidence observeRun(Engine& engine, const Layout& layout, const Watch& watch, const Span& span) {
@@ -65,6 +74,7 @@ Evidence observeRun(Engine& engine, const Layout& layout, const Watch& watch, co
   const int total = span.warmup + span.steps;
   const bool each = watch.penetration || watch.gap || watch.observe;
   for (int i = 0; i < total; ++i) {
+    engine.prepare();
     const auto before = Clock::now();
     try {
       engine.step(span.dt);
@@ -95,8 +105,10 @@ Evidence observeRun(Engine& engine, const Layout& layout, const Watch& watch, co
 Evidence run(const Scene& scene, const Settings& settings) {
   Model model = scene.make(settings);
   const Layout layout = layoutOf(model.world);
-  Evidence e = observeRun(*avbdEngine(model, layout), layout, scene.watch, {scene.warmup, scene.steps, model.dt});
+  const std::unique_ptr<Engine> engine = avbdEngine(model, layout, scene.before);
+  Evidence e = observeRun(*engine, layout, scene.watch, {scene.warmup, scene.steps, model.dt});
   e.kineticEnergy = model.world.kineticEnergy();
+  e.speed = speedMax(model.world);
   e.finite = e.finite && isFinite(model.world);
   return e;
 }

@@ -21,6 +21,7 @@ struct Evidence {
   Displacement displacement;  ///< from before the first step
   double top = 0;             ///< highest centre of a dynamic body [m]
   double kineticEnergy = 0;   ///< [J]
+  double speed = 0;           ///< of the fastest body after the last step [m/s]
   int escaped = 0;
   bool finite = true;
   std::map<std::string, double> own;  ///< the scene's own figures, by name
@@ -40,6 +41,7 @@ struct Watch {
 class Engine {
  public:
   virtual ~Engine() = default;
+  virtual void prepare() {}  ///< what comes before a step and is not timed
   virtual void step(double dt) = 0;
   virtual void poses(std::span<Pose> out) const = 0;  ///< of the layout's bodies, in its order
 };
@@ -52,7 +54,9 @@ struct Span {
 /// The engine steps in turn with the watching; only its step is timed.
 Evidence observeRun(Engine& engine, const Layout& layout, const Watch& watch, const Span& span);
 
-/// This project's engine over a model, which must outlive it.
-std::unique_ptr<Engine> avbdEngine(Model& model, const Layout& layout);
+/// This project's engine over a model, which must outlive it. `before` is called before each step with the number of
+/// steps made so far.
+std::unique_ptr<Engine> avbdEngine(Model& model, const Layout& layout,
+                                   std::function<void(Model&, int64_t)> before = {});
 
 }  // namespace avbd::scenes

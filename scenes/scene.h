@@ -47,6 +47,9 @@ struct Scene {
   int warmup = 60, steps = 300;
   Watch watch;
   std::function<std::vector<Figure>(const Evidence&)> check;
+  /// What the scene does by itself before each step, warm-up included, by the number of steps made so far; may be
+  /// empty.
+  std::function<void(Model&, int64_t)> before{};
 };
 
 /// One line of acceptance.

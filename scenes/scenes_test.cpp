@@ -169,6 +169,73 @@ TEST(Scenes, Chainmail) {
   EXPECT_EQ(m.world.shapeCount(), 900u + 1740u + 1u);
 }
 
+TEST(Scenes, Scissor) {
+  for (const char* name : {"scissor", "scissor_heavy"}) {
+    const Model m = make(name);
+    EXPECT_EQ(dynamicCount(m), 18u + 8u);
+    // A tree of 17 joints, and 8 that close loops.
+    EXPECT_EQ(m.world.jointCount(), 17u + 8u);
+    const double a = std::acos(0.9), top = 0.85 + 6 * std::sin(a);
+    expectNear(at(m, "bar_left"), {0, top, -0.9});
+    expectNear(at(m, "bar_right"), {0, top, 0.9});
+    expectNear(at(m, "platform"), {0, top + 0.15, 0});
+    const Layout layout = layoutOf(m.world);
+    EXPECT_LT(jointGapMax(layout, posesOf(m.world, layout)), 1e-6);
+    EXPECT_LT(jointAngleMax(layout, posesOf(m.world, layout)), 1e-6);
+    EXPECT_LT(startOverlap(m), 1e-6);
+  }
+}
+
+TEST(Scenes, ScissorIsLoadedAfter300Steps) {
+  const Scene& scene = *find("scissor");
+  Model m = scene.make({});
+  scene.before(m, 299);
+  EXPECT_NEAR(at(m, "box_0").x, 3, 1e-6);
+  scene.before(m, 300);
+  expectNear(at(m, "box_0"), at(m, "platform") + Vec3d{-0.25, 0.1 + 0.005 + 0.25, 0});
+  expectNear(at(m, "box_7"), at(m, "platform") + Vec3d{0.25, 0.1 + 0.005 + 0.75, 0.5});
+  // Half a period after the start the lift is at its highest.
+  EXPECT_NEAR(m.world.sliderJoint(m.joints[0].id).drive.position, -1.2, 1e-6);
+}
+
+TEST(Scenes, Ragdolls) {
+  const Model m = make("ragdolls");
+  EXPECT_EQ(dynamicCount(m), 50u * 16u);
+  EXPECT_EQ(m.world.jointCount(), 50u * 15u);
+  EXPECT_EQ(startOverlap(m), 0);
+  const Layout layout = layoutOf(m.world);
+  EXPECT_LT(jointGapMax(layout, posesOf(m.world, layout)), 1e-6);
+}
+
+TEST(Measure, JointsByWhatTheyHold) {
+  Build build("joints", {});
+  const BodyId body = build.box("box", {0.5f, 0.5f, 0.5f}, {0, 0, 0}, 1);
+  build.join(SliderJoint{}, {}, body, {{}, turned({0, 0, 1}, 0.5)});
+  Model m = build.take();
+  const Layout slider = layoutOf(m.world);
+  const auto gap = [&](const Layout& layout) { return jointGapMax(layout, posesOf(m.world, layout)); };
+  m.world.setPose(body, {{std::cos(0.5), std::sin(0.5), 0}, {}});
+  EXPECT_NEAR(gap(slider), 0, 1e-6);
+  m.world.setPose(body, {{-std::sin(0.5), std::cos(0.5), 0}, turned({0, 1, 0}, 0.1)});
+  EXPECT_NEAR(gap(slider), 1, 1e-6);
+  EXPECT_NEAR(jointAngleMax(slider, posesOf(m.world, slider)), 0.1, 1e-6);
+  m.world.destroy(m.world.joints()[0]);
+  m.world.create(DistanceJoint{.bodyB = body, .min = 0.2f, .max = 0.5f});
+  m.world.create(PulleyJoint{.bodyB = body, .wheelA = {0, 3, 0}, .wheelB = {0, 3, 0}, .length = 5.5f});
+  const Layout ropes = layoutOf(m.world);
+  m.world.setPose(body, {{0, 0.4, 0}, {}});
+  EXPECT_NEAR(gap(ropes), 0.1, 1e-6);  // 3 + 2.6 of 5.5
+  m.world.setPose(body, {{0, 0.9, 0}, {}});
+  EXPECT_NEAR(gap(ropes), 0.4, 1e-6);
+}
+
+TEST(Measure, TwistAndSwing) {
+  const TwistSwing q = twistSwing(turned({0, 0.6f, 0.8f}, 2.0) * turned({1, 0, 0}, -0.7));
+  EXPECT_NEAR(q.twist, -0.7, 1e-6);
+  EXPECT_NEAR(q.y, 1.2, 1e-6);
+  EXPECT_NEAR(q.z, 1.6, 1e-6);
+}
+
 TEST(Scenes, CardHouse) {
   const Model m = cardHouse({}, 0);
   EXPECT_EQ(dynamicCount(m), 40u);

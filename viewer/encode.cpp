@@ -124,11 +124,12 @@ void appendPose(Bytes& out, const Range range[3], const Pose& pose) {
 uint16_t packMagnitude(float value) {
   if (!(value > 0)) return 0;
   const float code = std::round((std::log2(std::min(value, 1e13f)) + 20) * 1024) + 1;
-  return static_cast<uint16_t>(std::clamp(code, 1.0f, 65535.0f));
+  return static_cast<uint16_t>(std::clamp(code, 1.0f, 65534.0f));
 }
 
-void appendContact(Bytes& out, const Range range[3], Vec3d position, Vec3 force) {
-  appendPosition(out, range, position);
+namespace {
+
+void appendForce(Bytes& out, Vec3 force) {
   float size = length(force);
   if (!std::isfinite(size)) size = 0;
   // Octahedral direction: the sphere unfolded onto a square.
@@ -142,6 +143,19 @@ void appendContact(Bytes& out, const Range range[3], Vec3d position, Vec3 force)
   out.push_back(static_cast<uint8_t>(toSignedByte(u)));
   out.push_back(static_cast<uint8_t>(toSignedByte(v)));
   append(out, packMagnitude(size), 2);
+}
+
+}  // namespace
+
+void appendContact(Bytes& out, const Range range[3], Vec3d position, Vec3 force) {
+  appendPosition(out, range, position);
+  appendForce(out, force);
+}
+
+void appendJoint(Bytes& out, Vec3 force, bool enabled) {
+  if (enabled) return appendForce(out, force);
+  append(out, 0, 2);
+  append(out, kJointOff, 2);
 }
 
 }  // namespace avbd::page

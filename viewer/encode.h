@@ -41,8 +41,13 @@ void appendPose(Bytes& out, const Range range[3], const Pose& pose);
 
 /// Bytes of a contact: three times 24 bits, direction of the force in two, its size in two.
 constexpr size_t kContactBytes = 13;
-/// Logarithmic: 0, or 2^((code - 1) / 1024 - 20).
+/// Logarithmic: 0, or 2^((code - 1) / 1024 - 20); below kJointOff.
 uint16_t packMagnitude(float value);
 void appendContact(Bytes& out, const Range range[3], Vec3d position, Vec3 force);
+
+/// Bytes of what a joint did: direction of the force on B in two, its size in two, or kJointOff.
+constexpr size_t kJointBytes = 4;
+constexpr uint16_t kJointOff = 65535;
+void appendJoint(Bytes& out, Vec3 force, bool enabled);
 
 }  // namespace avbd::page

@@ -34,7 +34,7 @@ void Feed::forget() {
   generation_ = reader_.generation();
   head_ = nullptr;
   times_.clear();
-  for (auto* list : {&energy_, &penetration_, &gap_}) list->clear();
+  for (auto* list : {&energy_, &penetration_, &gap_, &excess_, &excessAngle_}) list->clear();
   contactsAll_.clear();
   contactsKept_.clear();
 }
@@ -63,6 +63,8 @@ bool Feed::update() {
     energy_.push_back(static_cast<float>(f.kineticEnergy));
     penetration_.push_back(static_cast<float>(f.penetrationMax));
     gap_.push_back(static_cast<float>(f.jointGapMax));
+    excess_.push_back(static_cast<float>(f.limitExcessMax));
+    excessAngle_.push_back(static_cast<float>(f.limitExcessAngleMax));
     contactsAll_.push_back(count + f.contactsLeftOut);
     contactsKept_.push_back(count);
   }
@@ -99,6 +101,8 @@ Message Feed::figures(uint32_t first) const {
   putPart(bytes, energy_, first);
   putPart(bytes, penetration_, first);
   putPart(bytes, gap_, first);
+  putPart(bytes, excess_, first);
+  putPart(bytes, excessAngle_, first);
   putPart(bytes, contactsAll_, first);
   putPart(bytes, contactsKept_, first);
   return messageOf(std::move(bytes));
@@ -122,11 +126,12 @@ Message Feed::frame(uint32_t number) {
   } catch (const FileError&) {
   }
   Bytes bytes;
-  bytes.reserve(16 + 28 * f.poses.size() + 24 * f.contacts.size());
+  bytes.reserve(20 + 28 * f.poses.size() + 24 * f.contacts.size() + 12 * f.joints.size());
   put(bytes, static_cast<uint32_t>(MessageKind::Frame));
   put(bytes, number);
   put(bytes, static_cast<uint32_t>(f.poses.size()));
   put(bytes, static_cast<uint32_t>(f.contacts.size()));
+  put(bytes, static_cast<uint32_t>(f.joints.size()));
   for (const Pose& pose : f.poses) {
     putVector(bytes, toFloat(pose.position - origin_));
     const Quat q = pose.rotation;
@@ -137,6 +142,12 @@ Message Feed::frame(uint32_t number) {
   }
   for (const RecordedContact& c : f.contacts) putVector(bytes, toFloat(c.position - origin_));
   for (const RecordedContact& c : f.contacts) putVector(bytes, c.force);
+  for (const RecordedJointState& joint : f.joints) {
+    if (joint.enabled)
+      putVector(bytes, -joint.reaction.force);
+    else
+      for (int i = 0; i < 3; ++i) put(bytes, NAN);
+  }
   return messageOf(std::move(bytes));
 }
 

@@ -14,10 +14,14 @@ using Message = std::shared_ptr<const std::vector<uint8_t>>;
 
 /// The first four bytes of a message. All numbers little endian, 4 bytes where nothing else is said.
 enum class MessageKind : uint32_t {
-  Head = 1,     ///< JSON, from byte 4 on
-  Figures = 2,  ///< first frame, count, finished; 8-byte times; float energies, penetrations, gaps; contacts, kept
-  Frame = 3,    ///< frame, bodies, contacts; floats: 7 for each body, 3 for each contact's place, 3 for its force
-  Report = 4,   ///< JSON, from byte 4 on: a list of label and value
+  Head = 1,  ///< JSON, from byte 4 on
+  /// First frame, count, finished; 8-byte times; float energies, penetrations, gaps, limits' excess in metres and
+  /// radians; contacts, kept.
+  Figures = 2,
+  /// Frame, bodies, contacts, joints; floats: 7 for each body, 3 for each contact's place, 3 for its force, 3 for the
+  /// force on each joint's B, NaN where it is not enabled.
+  Frame = 3,
+  Report = 4,  ///< JSON, from byte 4 on: a list of label and value
 };
 
 class Feed {
@@ -46,7 +50,7 @@ class Feed {
   Message head_;
   Vec3d origin_;
   std::vector<double> times_;
-  std::vector<float> energy_, penetration_, gap_;
+  std::vector<float> energy_, penetration_, gap_, excess_, excessAngle_;
   std::vector<uint32_t> contactsAll_, contactsKept_;
 };
 

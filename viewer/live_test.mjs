@@ -102,6 +102,8 @@ async function testFinished(file) {
   await ask(page, () => { window.avbdViewer.seek(0); window.avbdViewer.play(); });
   await page.waitForFunction(() => window.avbdViewer.time > 0.3);
   await ask(page, () => window.avbdViewer.pause());
+  await ask(page, () => window.avbdViewer.toggle('reactions', true));
+  await page.waitForFunction(() => window.avbdViewer.jointLines().forces > 0, null, {timeout: 10000});
   const second = await open(url);
   assert.equal(await ask(second.page, () => window.avbdViewer.recording.frames), frames);
   await page.screenshot({path: join(resolve(folder), 'live.png')});

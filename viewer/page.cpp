@@ -54,6 +54,10 @@ void checkFrames(const Recording& r) {
       refuse(element("frames", i, "poses"), std::to_string(f.poses.size()),
              "must hold a pose for each of the " + std::to_string(r.bodies.size()) + " bodies");
     }
+    if (!f.joints.empty() && f.joints.size() != r.joints.size()) {
+      refuse(element("frames", i, "joints"), std::to_string(f.joints.size()),
+             "must be one for each of the " + std::to_string(r.joints.size()) + " joints, or none");
+    }
   }
 }
 
@@ -252,27 +256,52 @@ void writeShapes(Head& head, const Recording& r) {
   head.list("surfaces", surfaces.all(), [](std::ostream& out, const auto& data) { page::writeSurface(out, data); });
 }
 
+constexpr uint8_t kNoType = 255;
+
+void writeJointForms(Head& head, const Recording& r) {
+  std::vector<uint8_t> types, free;
+  std::vector<float> rotations, limits, cones;
+  for (const RecordedJoint& joint : r.joints) {
+    types.push_back(joint.type ? static_cast<uint8_t>(*joint.type) : kNoType);  // src/joints.js: kTypes
+    free.push_back(joint.freeAxes);
+    append(rotations, joint.frameA.rotation);
+    append(rotations, joint.frameB.rotation);
+    for (const RecordedLimit& limit : joint.limits) limits.insert(limits.end(), {limit.lower, limit.upper});
+    cones.insert(cones.end(), {joint.coneY, joint.coneZ});
+  }
+  head.numbers("jointTypes", types);
+  head.numbers("jointFree", free);
+  head.numbers("jointRotations", rotations);
+  head.numbers("jointLimits", limits);
+  head.numbers("jointCones", cones);
+  head.list("jointNames", r.joints, [](std::ostream& out, const RecordedJoint& joint) { out << jsonText(joint.name); });
+}
+
 void writeJoints(Head& head, const Recording& r) {
   std::vector<uint32_t> bodies;
   std::vector<double> anchors;
   for (const RecordedJoint& joint : r.joints) {
     bodies.insert(bodies.end(), {joint.bodyA, joint.bodyB});
-    append(anchors, joint.anchorA);
-    append(anchors, joint.anchorB);
+    append(anchors, joint.frameA.position);
+    append(anchors, joint.frameB.position);
   }
   head.numbers("jointBodies", bodies);
   head.numbers("jointAnchors", anchors);
+  if (std::any_of(r.joints.begin(), r.joints.end(), [](const RecordedJoint& joint) { return joint.type.has_value(); }))
+    writeJointForms(head, r);
 }
 
 void writeFigures(Head& head, const Recording& r, size_t contactsKept) {
   std::vector<double> times;
-  std::vector<float> energy, penetration, gap;
+  std::vector<float> energy, penetration, gap, excess, excessAngle;
   std::vector<uint32_t> kept, all;
   for (const RecordedFrame& f : r.frames) {
     times.push_back(f.time);
     energy.push_back(static_cast<float>(f.kineticEnergy));
     penetration.push_back(static_cast<float>(f.penetrationMax));
     gap.push_back(static_cast<float>(f.jointGapMax));
+    excess.push_back(static_cast<float>(f.limitExcessMax));
+    excessAngle.push_back(static_cast<float>(f.limitExcessAngleMax));
     all.push_back(static_cast<uint32_t>(f.contacts.size()) + f.contactsLeftOut);
     kept.push_back(static_cast<uint32_t>(std::min(f.contacts.size(), contactsKept)));
   }
@@ -280,6 +309,8 @@ void writeFigures(Head& head, const Recording& r, size_t contactsKept) {
   head.numbers("energy", energy);
   head.numbers("penetration", penetration);
   head.numbers("gap", gap);
+  head.numbers("excess", excess);
+  head.numbers("excessAngle", excessAngle);
   head.numbers("contactsAll", all);
   head.numbers("contactsKept", kept);
   head.list("report", r.report, [](std::ostream& out, const auto& line) {
@@ -295,10 +326,24 @@ std::array<Range, 3> contactRanges(const Recording& r) {
   return bounds.ranges();
 }
 
+/// Whether frames say what joints did.
+bool hasJointStates(const Recording& r) {
+  return std::any_of(r.frames.begin(), r.frames.end(), [](const RecordedFrame& f) { return !f.joints.empty(); });
+}
+
+// A frame that does not say shows no forces.
+void appendJoints(Bytes& bytes, const Recording& r, const RecordedFrame& f) {
+  for (size_t i = 0; i < r.joints.size(); ++i) {
+    const RecordedJointState state = f.joints.empty() ? RecordedJointState{} : f.joints[i];
+    page::appendJoint(bytes, -state.reaction.force, state.enabled);
+  }
+}
+
 /// The frames' bytes in script elements of a few megabytes, each a whole number of frames.
 void writeFrames(std::ostream& out, const Recording& r, const Tracks& tracks, size_t contactsKept) {
   const std::array<Range, 3> contactRange = contactRanges(r);
   std::vector<Pose> last(tracks.bodies.size());  // a pose that is not finite shows as the one before
+  const bool joints = hasJointStates(r);
   Bytes bytes;
   const auto flush = [&](size_t nextFrame) {
     out << "<script type=\"text/plain\" class=\"avbd-frames\" data-end=\"" << nextFrame << "\">" << page::base64(bytes)
@@ -312,6 +357,7 @@ void writeFrames(std::ostream& out, const Recording& r, const Tracks& tracks, si
       if (finite(pose.position)) last[t] = pose;
       appendPose(bytes, tracks.ranges[t].data(), last[t]);
     }
+    if (joints) appendJoints(bytes, r, f);
     for (const RecordedContact& c : strongest(f.contacts, contactsKept)) {
       appendContact(bytes, contactRange.data(), c.position, c.force);
     }
@@ -335,6 +381,7 @@ void writeHead(std::ostream& out, const Recording& r, const Tracks& tracks, Vec3
   writeBodies(head, r, tracks);
   writeShapes(head, r);
   writeJoints(head, r);
+  head.numbers("jointStates", std::vector<uint8_t>{static_cast<uint8_t>(hasJointStates(r))});
   writeFigures(head, r, contactsKept);
 }
 

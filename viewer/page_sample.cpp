@@ -1,4 +1,4 @@
-// Writes made-up recordings for the browser test: page_sample FILE.html [pyramid | pile | hostile | shapes].
+// Writes made-up recordings for the browser test: page_sample FILE.html [pyramid | pile | hostile | shapes | joints].
 #include <array>
 #include <cmath>
 #include <iostream>
@@ -49,11 +49,12 @@ Recording pyramid() {
   for (int i = 0; i < 3; ++i) {
     const uint32_t link = add(r, "link_" + std::to_string(i), BodyType::Dynamic, Capsule{0.12f, 0.3f},
                               {{}, turn({1, 0, 0}, 1.57079633f)});
-    r.joints.push_back({i == 0 ? 1u : link - 1, link, i == 0 ? Vec3d{0, -0.4, 2.4} : Vec3d{0, 0, -0.45}, {0, 0, 0.45}});
+    const Vec3d above = i == 0 ? Vec3d{0, -0.4, 2.4} : Vec3d{0, 0, -0.45};
+    r.joints.push_back({i == 0 ? 1u : link - 1, link, {above, {}}, {{0, 0, 0.45}, {}}});
   }
   add(r, "ball_heavy", BodyType::Dynamic, Sphere{0.45f});
   add(r, "ball_rolling", BodyType::Dynamic, Sphere{0.35f});
-  r.joints.push_back({60, 61, {0, 0, -0.45}, {0, 0, 0.55}});
+  r.joints.push_back({60, 61, {{0, 0, -0.45}, {}}, {{0, 0, 0.55}, {}}});
   return r;
 }
 
@@ -159,7 +160,11 @@ Recording hostile() {
   f.kineticEnergy = NAN;
   f.penetrationMax = INFINITY;
   r.frames.push_back(f);
-  r.joints.push_back({1, 0xffffffffu, {}, {1e6, 1e6, -1e6}});
+  r.joints.push_back({1, 0xffffffffu, {}, {{1e6, 1e6, -1e6}, {NAN, 0, 0, 0}}, JointType::D6, "</script>"});
+  r.joints[0].freeAxes = 0x3f;
+  r.joints[0].limits[3] = {-INFINITY, 1e30f};
+  r.joints[0].limits[0].lower = -1e30f;
+  r.frames[0].joints = {{{{NAN, INFINITY, 0}, {}}, true}};
   r.report = {{"<b>label</b>", "</script><script>window.broken=4</script>"}};
   return r;
 }
@@ -242,18 +247,71 @@ Recording shapesRun() {
   return r;
 }
 
+RecordedJoint jointOf(uint32_t body, const Pose& frameA, const Pose& frameB, JointType type, uint8_t free) {
+  RecordedJoint joint{kNotRecorded, body, frameA, frameB, type};
+  joint.freeAxes = free;
+  return joint;
+}
+
+/// A door on a hinge, a drawer on a slider, an arm in a cone, a ball on a rope that breaks; y is up.
+Recording jointsRun() {
+  Recording r;
+  r.title = "Joints";
+  add(r, "ground", BodyType::Static, HalfSpace{});
+  const uint32_t door = add(r, "door", BodyType::Dynamic, Box{0.5f, 0.8f, 0.05f});
+  const uint32_t drawer = add(r, "drawer", BodyType::Dynamic, Box{0.3f, 0.2f, 0.3f});
+  const uint32_t arm = add(r, "arm", BodyType::Dynamic, Capsule{0.12f, 0.4f});
+  const uint32_t ball = add(r, "ball", BodyType::Dynamic, Sphere{0.25f});
+  const Quat xToY = turn({0, 0, 1}, 1.57079633f), xToMinusY = turn({0, 0, 1}, -1.57079633f);
+  r.joints = {jointOf(door, {{-3, 1, 0}, xToY}, {{-0.5, 0, 0}, xToY}, JointType::Hinge, 8),
+              jointOf(drawer, {{-0.6, 0.5, 0}, {}}, {}, JointType::Slider, 1),
+              jointOf(arm, {{1.5, 1.8, 0}, xToMinusY}, {{0, 0.5, 0}, xToMinusY}, JointType::D6, 0x38),
+              jointOf(ball, {{3, 2.4, 0}, {}}, {}, JointType::Distance, 0x3f)};
+  r.joints[0].limits[3] = {-0.5f, 1.6f};
+  r.joints[0].name = "door_hinge";
+  r.joints[1].limits[0] = {-0.5f, 0.8f};
+  r.joints[2].coneY = 0.6f;
+  r.joints[2].coneZ = 0.9f;
+  r.joints[2].limits[3] = {-0.3f, 0.3f};
+  r.joints[3].limits[0] = {0, 1};
+  for (int i = 0; i <= 120; ++i) {
+    RecordedFrame f;
+    f.time = i / 60.0;
+    const double wave = std::sin(3 * f.time);
+    const Quat opened = turn({0, 1, 0}, static_cast<float>(0.5 + wave));
+    const Quat leaning = turn({1, 0, 0}, static_cast<float>(0.6 * wave));
+    const double fallen = std::max(0.0, f.time - 1);
+    f.poses = {{},
+               {Vec3d{-3, 1, 0} + rotate(opened, Vec3d{0.5, 0, 0}), opened},
+               {{-0.6 + 0.7 * wave, 0.5, 0}, {}},
+               {Vec3d{1.5, 1.8, 0} - rotate(leaning, Vec3d{0, 0.5, 0}), leaning},
+               {{3, 1.4 - std::min(1.15, 4.9 * fallen * fallen), 0}, {}}};
+    const auto pull = static_cast<float>(wave);
+    f.joints = {{{{20 * pull, -80, 0}, {}}, true},
+                {{{0, -40, 0}, {}}, true},
+                {{{0, -60, 30 * pull}, {}}, true},
+                {{{0, -90, 0}, {}}, i <= 60}};
+    f.limitExcessMax = 0.002 * std::max(0.0, wave - 0.8);
+    f.limitExcessAngleMax = 0.01 * std::max(0.0, -wave - 0.5);
+    f.jointGapMax = 1e-4 * std::fabs(wave);
+    r.frames.push_back(std::move(f));
+  }
+  return r;
+}
+
 }  // namespace
 }  // namespace avbd
 
 int main(int argc, char** argv) {
   const std::string kind = argc > 2 ? argv[2] : "pyramid";
   if (argc < 2) {
-    std::cerr << "page_sample FILE.html [pyramid | pile | hostile | shapes]\n";
+    std::cerr << "page_sample FILE.html [pyramid | pile | hostile | shapes | joints]\n";
     return 2;
   }
   const avbd::Recording r = kind == "pile"      ? avbd::pileRun()
                             : kind == "hostile" ? avbd::hostile()
                             : kind == "shapes"  ? avbd::shapesRun()
+                            : kind == "joints"  ? avbd::jointsRun()
                                                 : avbd::pyramidRun();
   avbd::writePage(argv[1], r);
   return 0;

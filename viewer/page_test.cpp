@@ -200,6 +200,31 @@ TEST(Page, TooManyContactsKeepTheStrongest) {
   EXPECT_EQ(frameCharacters(pageOf(r, {.contactsMax = 0})), 60u);
 }
 
+TEST(Page, WhatJointsDidIsStoredWhereItIsKnown) {
+  Recording r = twoBodies();
+  r.joints = {{0, 1, {}, {}}};
+  const std::string bare = pageOf(r);
+  EXPECT_EQ(frameCharacters(bare), 60u);
+  EXPECT_EQ(bare.find("\"jointTypes\":"), std::string::npos);
+  r.joints[0].type = JointType::Hinge;
+  r.joints[0].name = "</script>";
+  r.joints[0].limits[3] = {-1, 2};
+  r.frames[1].joints = {{{{1, 2, 3}, {}}, false}};
+  const std::string text = pageOf(r);
+  EXPECT_EQ(frameCharacters(text), (3 * (15 + page::kJointBytes) + 2) / 3 * 4);
+  EXPECT_NE(text.find("\"jointTypes\":\"" + text64("\x03") + '"'), std::string::npos);
+  EXPECT_NE(text.find("\"jointNames\":[\"\\u003c/script\\u003e\"]"), std::string::npos);
+}
+
+TEST(PageEncoding, AJointThatIsOffIsToldFromOneWithoutForce) {
+  page::Bytes bytes;
+  page::appendJoint(bytes, {}, true);
+  page::appendJoint(bytes, {0, 1, 0}, false);
+  EXPECT_EQ(bytes, (page::Bytes{0, 0, 0, 0, 0, 0, 0xff, 0xff}));
+  page::appendJoint(bytes, {0, 1e30f, 0}, true);
+  EXPECT_NE(bytes[10] | bytes[11] << 8, page::kJointOff);
+}
+
 TEST(Page, RefusesWhatDoesNotFitTogether) {
   Recording r = twoBodies();
   r.frames[1].poses.pop_back();
@@ -218,6 +243,9 @@ TEST(Page, RefusesWhatDoesNotFitTogether) {
   r = twoBodies();
   r.joints = {{1, 9, {}, {}}};
   EXPECT_NE(messageOf(r).find("Recording.joints[0].body = 9"), std::string::npos);
+  r.joints[0].bodyB = 0;
+  r.frames[1].joints.resize(2);
+  EXPECT_NE(messageOf(r).find("Recording.frames[1].joints = 2"), std::string::npos);
   r = twoBodies();
   r.up = {};
   EXPECT_NE(messageOf(r).find("Recording.up"), std::string::npos);

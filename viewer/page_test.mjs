@@ -113,7 +113,7 @@ async function testScrubbing(page) {
     assert.equal(await ask(page, () => window.avbdViewer.frame), frame, key);
   }
   const plot = await page.locator('.plotBox').first().boundingBox();
-  await page.mouse.click(plot.x + 44 + (plot.width - 52) / 4, plot.y + 30);
+  await page.mouse.click(plot.x + 56 + (plot.width - 64) / 4, plot.y + 30);
   assert.ok(Math.abs(await ask(page, () => window.avbdViewer.time) - 1) < 0.05, 'a plot seeks');
 }
 
@@ -128,16 +128,18 @@ async function testInterpolation(page) {
   assert.ok(Math.abs(middle - (a + b) / 2) < 1e-4, 'half way between two frames');
 }
 
+/// Of every fourth pixel of the scene.
+function differing(a, b) {
+  let different = 0;
+  for (let y = 100; y < 700; y += 2) {
+    for (let x = 10; x < 960; x += 2) different += apart(a(x, y), b(x, y)) > 20;
+  }
+  return different;
+}
+
 /// Each toggle changes the picture and, off again, brings it back.
 async function testToggles(page) {
   await ask(page, () => window.avbdViewer.seek(2));
-  const count = (a, b) => {
-    let different = 0;
-    for (let y = 80; y < 700; y += 2) {
-      for (let x = 10; x < 960; x += 2) different += apart(a(x, y), b(x, y)) > 20;
-    }
-    return different;
-  };
   await page.mouse.move(500, 90);
   const plain = await pixels(page);
   for (const name of ['Contacts', 'Forces', 'Joints', 'Names']) {
@@ -145,10 +147,10 @@ async function testToggles(page) {
     await button.click();
     await page.mouse.move(500, 90);
     const on = await pixels(page);
-    assert.ok(count(plain, on) > 30, `${name} shows something: ${count(plain, on)}`);
+    assert.ok(differing(plain, on) > 30, `${name} shows something: ${differing(plain, on)}`);
     await button.click();
     await page.mouse.move(500, 90);
-    assert.ok(count(plain, await pixels(page)) < 30, `${name} goes away again`);
+    assert.ok(differing(plain, await pixels(page)) < 30, `${name} goes away again`);
   }
   await page.keyboard.press('n');
   await settle(page);
@@ -277,7 +279,48 @@ async function testShapes() {
   await page.close();
 }
 
+/// Each switch draws its own lines, and only those; a joint that broke shows nothing.
+async function testJoints() {
+  const {page, complaints} = await open('joints');
+  await ask(page, () => { window.avbdViewer.setQuality('2'); window.avbdViewer.seek(0.5); });
+  await page.mouse.move(500, 90);
+  const lines = () => ask(page, () => window.avbdViewer.jointLines());
+  const none = {axes: 0, limits: 0, pointers: 0, forces: 0};
+  await settle(page);
+  assert.deepEqual(await lines(), none);
+  const plain = await pixels(page);
+  for (const [name, key, parts] of [['Frames', 'x', ['axes']], ['Limits', 'm', ['limits', 'pointers']], ['Reactions', 'b', ['forces']]]) {
+    await page.locator('.chip', {hasText: name}).first().click();
+    await page.mouse.move(500, 90);
+    const on = await pixels(page), drawn = await lines();
+    assert.deepEqual(Object.keys(drawn).filter((part) => drawn[part] > 0), parts, name);
+    assert.ok(differing(plain, on) > 100, `${name} shows something: ${differing(plain, on)}`);
+    await page.keyboard.press(key);
+    assert.ok(differing(plain, await pixels(page)) < 30, `${name} goes away again`);
+  }
+  assert.deepEqual(await lines(), none);
+  for (const name of ['frames', 'limits', 'reactions']) await ask(page, (which) => window.avbdViewer.toggle(which, true), name);
+  await settle(page);
+  const whole = await lines();
+  assert.equal(whole.axes, 3 * 2 * 3);  // three axes of both frames of the hinge, the slider and the cone
+  assert.match(await page.locator('.note').innerText(), /joint forces up to 90 N/);
+  await page.screenshot({path: join(work, 'joints.png')});
+  await ask(page, () => window.avbdViewer.seek(1.5));  // the rope broke
+  await settle(page);
+  const broken = await lines();
+  assert.equal(broken.axes, whole.axes);
+  assert.equal(broken.forces, whole.forces - 5);
+  const plots = await ask(page, () => window.avbdViewer.plots());
+  assert.deepEqual(plots.map(({name}) => name), ['energy', 'penetration', 'gap', 'excess', 'excessAngle']);
+  for (const {name, high} of plots.slice(2)) assert.ok(high > 0, name);
+  const chips = await page.locator('.plot').allInnerTexts();
+  assert.ok(chips.some((text) => /Beyond limits, turning/.test(text)), chips.join());
+  assert.deepEqual(complaints, []);
+  await page.close();
+}
+
 try {
+  await testJoints();
   await testShapes();
   await testPyramid();
   await testHostile();

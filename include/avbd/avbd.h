@@ -1,7 +1,10 @@
 // The whole public API.
 #pragma once
 
+#include <avbd/articulation.h>
 #include <avbd/body.h>
+#include <avbd/coupling.h>
+#include <avbd/custom_joint.h>
 #include <avbd/debug_draw.h>
 #include <avbd/decompose.h>
 #include <avbd/error.h>

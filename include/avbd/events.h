@@ -3,6 +3,7 @@
 
 #include <avbd/geometry.h>
 #include <avbd/id.h>
+#include <avbd/joint.h>
 #include <avbd/types.h>
 
 #include <array>
@@ -69,6 +70,12 @@ struct HitEvent {
   float impulse = 0;  ///< [N s] along the normal over the step, of all their points, rebound included
 };
 
+/// A joint broke (JointBreak).
+struct BreakEvent {
+  JointId joint;
+  JointReaction reaction;  ///< with which it broke
+};
+
 /// A body moved in the last step.
 struct MoveEvent {
   BodyId body;
@@ -82,6 +89,7 @@ struct Events {
   std::vector<TouchEvent> begins, ends;
   std::vector<TriggerEvent> enters, leaves;
   std::vector<HitEvent> hits;
+  std::vector<BreakEvent> breaks;
   std::vector<MoveEvent> moves;  ///< only with WorldDef::moveEvents
 };
 

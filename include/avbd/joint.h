@@ -36,10 +36,20 @@ struct JointLimit {
   float upper = std::numeric_limits<float>::infinity();
   float stiffness = 0;  ///< [N/m, N m/rad] >= 0 beyond the stop; 0: hard
   float damping = 0;    ///< [N s/m, N m s/rad] >= 0 beyond the stop; only of soft ones
+  /// 0 .. 1: share of its speed with which a coordinate leaves a hard stop that it met faster than
+  /// WorldDef::restitutionThreshold.
+  float restitution = 0;
+};
+
+/// What a coordinate resists with by itself: force = stiffness (position - q) - damping dq/dt, without bound.
+struct JointSpring {
+  float stiffness = 0;  ///< [N/m, N m/rad] >= 0
+  float damping = 0;    ///< [N s/m, N m s/rad] >= 0
+  float position = 0;   ///< [m, rad] at rest
 };
 
 /// A spring and damper that pull a coordinate to a position and speed: force = stiffness (position - q) + damping
-/// (velocity - dq/dt), within +-maxForce. With stiffness 0 a motor.
+/// (velocity - dq/dt) + force, within +-maxForce. With stiffness 0 a motor.
 struct JointDrive {
   float stiffness = 0;                                      ///< [N/m, N m/rad] >= 0
   float damping = 0;                                        ///< [N s/m, N m s/rad] >= 0
@@ -48,6 +58,7 @@ struct JointDrive {
   float maxForce = std::numeric_limits<float>::infinity();  ///< [N, N m] > 0
   /// Stiffness and damping are those of a unit mass [1/s^2, 1/s]: the motion is the same for light and heavy bodies.
   bool acceleration = false;
+  float force = 0;  ///< [N, N m] added; also of acceleration drives a force
 };
 
 enum class AxisMotion : uint8_t { Locked, Free };
@@ -58,6 +69,9 @@ struct D6Axis {
   JointLimit limit{};  ///< this and the rest: of free coordinates
   JointDrive drive{};
   float friction = 0;  ///< [N, N m] >= 0: Coulomb friction
+  JointSpring spring{};
+  float armature = 0;                                          ///< [kg, kg m^2] >= 0: inertia of what turns with it
+  float maxVelocity = std::numeric_limits<float>::infinity();  ///< [m/s, rad/s] > 0; needs a hard limit or none
 };
 
 /// A hinge: B turns about frame A's x axis (JointAxis::Twist).
@@ -67,6 +81,9 @@ struct HingeJoint {
   JointLimit limit{};
   JointDrive drive{};
   float friction = 0;  ///< [N m] >= 0
+  JointSpring spring{};
+  float armature = 0;                                          ///< as in D6Axis
+  float maxVelocity = std::numeric_limits<float>::infinity();  ///< as in D6Axis
   bool collideConnected = false;
   uint64_t userData = 0;
 };
@@ -78,8 +95,29 @@ struct SliderJoint {
   JointLimit limit{};
   JointDrive drive{};
   float friction = 0;  ///< [N] >= 0
+  JointSpring spring{};
+  float armature = 0;                                          ///< as in D6Axis
+  float maxVelocity = std::numeric_limits<float>::infinity();  ///< as in D6Axis
   bool collideConnected = false;
   uint64_t userData = 0;
+};
+
+/// Keeps the swing within an elliptic cone: (y / limitY)^2 + (z / limitZ)^2 <= 1 of the swing's coordinates.
+struct SwingCone {
+  float y = std::numeric_limits<float>::infinity();  ///< [rad] > 0, < pi; both infinite: no cone
+  float z = std::numeric_limits<float>::infinity();  ///< [rad] likewise
+  float stiffness = 0;                               ///< [N m/rad] >= 0 beyond the cone; 0: hard
+  float damping = 0;                                 ///< [N m s/rad] >= 0 beyond it; only of soft ones
+};
+
+/// Turns B against A to a rotation the shortest way: a torque as a JointDrive gives, about the axis of what is missing.
+struct SlerpDrive {
+  float stiffness = 0;                                      ///< [N m/rad] >= 0
+  float damping = 0;                                        ///< [N m s/rad] >= 0
+  Quat rotation{};                                          ///< of frame B in frame A
+  Vec3 velocity{};                                          ///< [rad/s] of B against A, in frame A
+  float maxForce = std::numeric_limits<float>::infinity();  ///< [N m] > 0 about each axis of frame A
+  bool acceleration = false;                                ///< as in JointDrive
 };
 
 /// The general joint: each of six coordinates locked or free, with limit, drive and friction.
@@ -87,7 +125,43 @@ struct D6Joint {
   BodyId bodyA{}, bodyB{};
   Pose frameA{}, frameB{};       ///< in each body's frame
   std::array<D6Axis, 6> axes{};  ///< by JointAxis
+  SwingCone cone{};              ///< needs both swings free
+  SlerpDrive slerp{};            ///< needs all three angles free and without drives of their own
   bool collideConnected = false;
+  uint64_t userData = 0;
+};
+
+/// A ball joint whose swing keeps within a cone and whose twist within limits.
+D6Joint coneJoint(BodyId bodyA, BodyId bodyB, const Pose& frameA, const Pose& frameB, const SwingCone& cone,
+                  const JointLimit& twist = {});
+/// Both swings are free, the twist is locked.
+D6Joint universalJoint(BodyId bodyA, BodyId bodyB, const Pose& frameA, const Pose& frameB);
+/// A sprung wheel: B's origin moves along frame A's z axis (the suspension), B steers about it (SwingZ, locked) and
+/// rolls about y (SwingY).
+D6Joint wheelJoint(BodyId bodyA, BodyId bodyB, const Pose& frameA, const Pose& frameB, const JointSpring& suspension,
+                   const JointLimit& travel = {});
+
+/// Keeps the distance of two points within a range. A rope has min 0; a rod min = max.
+struct DistanceJoint {
+  BodyId bodyA{}, bodyB{};
+  Pose frameA{}, frameB{};                             ///< in each body's frame; only the positions matter
+  float min = 0;                                       ///< [m] >= 0
+  float max = std::numeric_limits<float>::infinity();  ///< [m] >= min
+  float stiffness = 0;                                 ///< [N/m] >= 0 outside the range; 0: hard
+  float damping = 0;                                   ///< [N s/m] >= 0 outside the range; only of soft ones
+  bool collideConnected = false;
+  uint64_t userData = 0;
+};
+
+/// A rope from a point of A over two fixed wheels to a point of B: |a - wheelA| + ratio |b - wheelB| <= length.
+struct PulleyJoint {
+  BodyId bodyA{}, bodyB{};
+  Pose frameA{}, frameB{};   ///< in each body's frame; only the positions matter
+  Vec3d wheelA{}, wheelB{};  ///< world [m]
+  float ratio = 1;           ///< > 0
+  float length = 0;          ///< [m] >= 0; 0 takes what it is at creation
+  bool slack = true;         ///< a rope may be shorter; without slack it also pushes
+  bool collideConnected = true;
   uint64_t userData = 0;
 };
 
@@ -100,7 +174,15 @@ struct TetVolume {
   uint64_t userData = 0;
 };
 
-enum class JointType : uint8_t { Ball, Fixed, TetVolume, Hinge, Slider, D6 };
+enum class JointType : uint8_t { Ball, Fixed, TetVolume, Hinge, Slider, D6, Distance, Pulley, Coupling, Custom };
+
+/// Beyond which a joint breaks: it lets go for good (World::setEnabled joins it anew) and is in Events::breaks. Force
+/// and torque are those of its reaction. It must be beyond in two steps that follow each other, so that one step's peak
+/// breaks nothing.
+struct JointBreak {
+  float force = std::numeric_limits<float>::infinity();   ///< [N] > 0
+  float torque = std::numeric_limits<float>::infinity();  ///< [N m] > 0
+};
 
 /// Where a coordinate of a joint is and how fast it moves.
 struct JointCoordinate {
@@ -109,7 +191,8 @@ struct JointCoordinate {
 };
 
 /// What a joint did in the last step, on body A (on B the opposite), world axes, at A's anchor.
-/// Of a TetVolume: force is that on bodies[0].
+/// Of a TetVolume and a CustomJoint: that on bodies[0], at its centre of mass. Of a Coupling: torque.x is the force
+/// along its coordinate. Zero of a joint that is not enabled.
 struct JointReaction {
   Vec3 force;   ///< [N]
   Vec3 torque;  ///< [N m]

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <avbd/body.h>
+#include <avbd/coupling.h>
+#include <avbd/custom_joint.h>
 #include <avbd/error.h>
 #include <avbd/events.h>
 #include <avbd/joint.h>
@@ -64,9 +66,13 @@ class World {
   JointId create(const HingeJoint& def);
   JointId create(const SliderJoint& def);
   JointId create(const D6Joint& def);
+  JointId create(const DistanceJoint& def);
+  JointId create(const PulleyJoint& def);
+  JointId create(const Coupling& def);
+  JointId create(const CustomJoint& def);
   void destroy(BodyId id);   ///< with its shapes and its joints
   void destroy(ShapeId id);  ///< as create; a dynamic body that loses its last mass keeps what it had
-  void destroy(JointId id);
+  void destroy(JointId id);  ///< with the couplings that name it
   bool isAlive(BodyId id) const;
   bool isAlive(ShapeId id) const;
   bool isAlive(JointId id) const;
@@ -120,6 +126,12 @@ class World {
   void setGravityScale(BodyId id, float scale);
   void setLocks(BodyId id, uint8_t locks);
   void setMaxSpeeds(BodyId id, float linear, float angular);
+  float linearDamping(BodyId id) const;   ///< [1/s]
+  float angularDamping(BodyId id) const;  ///< [1/s]
+  float gravityScale(BodyId id) const;
+  uint8_t locks(BodyId id) const;          ///< of Locks
+  float maxLinearSpeed(BodyId id) const;   ///< [m/s]
+  float maxAngularSpeed(BodyId id) const;  ///< [rad/s]
   uint64_t userData(BodyId id) const;
   void setUserData(BodyId id, uint64_t data);
   std::vector<ShapeId> shapes(BodyId id) const;
@@ -149,26 +161,50 @@ class World {
 
   // Joints.
   JointType type(JointId id) const;
+  std::vector<BodyId> bodies(JointId id) const;  ///< that it acts on, each once, without the world
+  /// Where its frames are in the world, A's first; of joints without frames an Error.
+  std::array<Pose, 2> worldFrames(JointId id) const;
   BallJoint ballJoint(JointId id) const;      ///< the definition; Error if it is a joint of another type
   FixedJoint fixedJoint(JointId id) const;    ///< as above
   TetVolume tetVolume(JointId id) const;      ///< as above; restVolume is the one in use
   HingeJoint hingeJoint(JointId id) const;    ///< as above
   SliderJoint sliderJoint(JointId id) const;  ///< as above
   D6Joint d6Joint(JointId id) const;          ///< as above
+  DistanceJoint distanceJoint(JointId id) const;
+  PulleyJoint pulleyJoint(JointId id) const;  ///< length is the one in use
+  Coupling coupling(JointId id) const;        ///< rest is the one in use
+  CustomJoint customJoint(JointId id) const;  ///< memory is that of now
   /// One coordinate of a hinge, slider or D6 joint; else Error.
   JointCoordinate coordinate(JointId id, JointAxis axis) const;
-  /// The coordinate that a hinge or slider leaves free.
+  /// The coordinate that a hinge or slider leaves free; the length of a distance joint or pulley; L of a coupling.
   JointCoordinate coordinate(JointId id) const;
   /// Of a free coordinate of a D6 joint; without axis that of a hinge or slider. Takes effect in the next step.
   void setLimit(JointId id, JointAxis axis, const JointLimit& limit);
   void setLimit(JointId id, const JointLimit& limit);
   void setDrive(JointId id, JointAxis axis, const JointDrive& drive);
   void setDrive(JointId id, const JointDrive& drive);
+  void setSpring(JointId id, JointAxis axis, const JointSpring& spring);
+  void setSpring(JointId id, const JointSpring& spring);
+  void setSlerp(JointId id, const SlerpDrive& drive);  ///< of a D6 joint that may have one
+  /// A force along a free coordinate during the next step, on B along the axis and on A against it [N, N m]; also along
+  /// L of a free coupling. Adds to what was given before and is then forgotten.
+  void addJointForce(JointId id, JointAxis axis, float force);
+  void addJointForce(JointId id, float force);  ///< of a hinge, slider or coupling
+  /// New frames in the bodies; what the joint remembers stays, so that nothing jumps but what the frames make jump. Of
+  /// joints that have frames.
+  void setFrames(JointId id, const Pose& frameA, const Pose& frameB);
+  /// A joint that is not enabled does nothing, also to collisions: those of its bodies are then as if it were not
+  /// there.
+  bool isEnabled(JointId id) const;
+  void setEnabled(JointId id, bool enabled);
+  JointBreak breakLimits(JointId id) const;
+  void setBreakLimits(JointId id, const JointBreak& limits);
   JointReaction reaction(JointId id) const;
   /// How far the joint is from holding [m]: the distance of the frames' origins, of a slider or D6 joint along its
-  /// locked axes only; |C| [m^3] of a TetVolume.
+  /// locked axes only; beyond its range of a distance joint or pulley; |C| [m^3] of a TetVolume; |L - rest| of a locked
+  /// coupling, 0 of a free one; the largest |C| of a custom joint's hard rows.
   double gap(JointId id) const;
-  /// [rad] between the frames about locked axes; 0 of a BallJoint and a TetVolume.
+  /// [rad] between the frames about locked axes; 0 of joints that lock none.
   double angleError(JointId id) const;
   uint64_t userData(JointId id) const;
   void setUserData(JointId id, uint64_t data);

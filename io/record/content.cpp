@@ -1,4 +1,4 @@
-// Meta, bodies, joints and the index.
+// Meta, bodies and the index.
 #include "io/record/content.h"
 
 #include <cmath>
@@ -12,10 +12,7 @@ namespace {
 
 enum MetaField : uint16_t { kTitle = 1, kEngine = 2, kUp = 3, kDt = 4, kLabels = 10, kValues = 12 };
 enum BodyField : uint16_t { kNames = 1, kTypes = 3 };
-enum JointField : uint16_t { kBodyA = 1, kBodyB = 2, kAnchorA = 3, kAnchorB = 4 };
 enum IndexField : uint16_t { kOffsets = 1, kChunkTypes = 2, kFirsts = 3, kCounts = 4, kTimes = 5 };
-
-std::vector<double> numbersOf(Vec3d v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
@@ -45,23 +42,6 @@ Bytes bodiesContent(const Recording& r) {
   }
   out.texts(kNames, names);
   out.list(kTypes, types);
-  return out.bytes();
-}
-
-Bytes jointsContent(const Recording& r) {
-  FieldWriter out;
-  std::vector<uint32_t> a, b;
-  std::vector<double> anchorA, anchorB;
-  for (const RecordedJoint& joint : r.joints) {
-    a.push_back(joint.bodyA);
-    b.push_back(joint.bodyB);
-    for (const double v : numbersOf(joint.anchorA)) anchorA.push_back(v);
-    for (const double v : numbersOf(joint.anchorB)) anchorB.push_back(v);
-  }
-  out.list(kBodyA, a);
-  out.list(kBodyB, b);
-  out.list(kAnchorA, anchorA, Encoding::Shuffled);
-  out.list(kAnchorB, anchorB, Encoding::Shuffled);
   return out.bytes();
 }
 
@@ -111,21 +91,6 @@ void HeadReader::takeBodies(const FieldReader& f) {
     const uint8_t type = types.empty() ? static_cast<uint8_t>(BodyType::Dynamic) : types[i];
     if (type > static_cast<uint8_t>(BodyType::Dynamic)) f.refuse(kTypes, "names a type of body that there is not");
     recording.bodies.push_back({names[i], static_cast<BodyType>(type)});
-  }
-}
-
-void HeadReader::takeJoints(const FieldReader& f) {
-  refuseMore(f, kBodyA, recording.joints.size());
-  const std::vector<uint32_t> a = f.list<uint32_t>(kBodyA), b = f.listOf<uint32_t>(kBodyB, a.size());
-  const std::vector<double> anchorA = f.listOf<double>(kAnchorA, 3 * a.size()),
-                            anchorB = f.listOf<double>(kAnchorB, 3 * a.size());
-  if (!a.empty() && (b.empty() || anchorA.empty() || anchorB.empty())) f.refuse(kBodyA, "stands alone");
-  const auto fits = [&](uint32_t body) { return body == kNotRecorded || body < recording.bodies.size(); };
-  for (size_t i = 0; i < a.size(); ++i)
-    if (!fits(a[i]) || !fits(b[i])) f.refuse(kBodyA, "names a body that there is not");
-  for (size_t i = 0; i < a.size(); ++i) {
-    const double *p = &anchorA[3 * i], *q = &anchorB[3 * i];
-    recording.joints.push_back({a[i], b[i], {p[0], p[1], p[2]}, {q[0], q[1], q[2]}});
   }
 }
 

@@ -74,15 +74,22 @@ struct FrameBlock {
   std::vector<uint8_t> eventKind;
   std::vector<double> eventPosition;
   std::vector<float> eventNormal, eventSpeed, eventImpulse;
+  std::vector<double> excess, excessAngle;
+  uint32_t joints = 0;  ///< of each frame; 0: what they did is not known
+  std::vector<float> jointForce, jointTorque;
+  std::vector<uint8_t> jointEnabled;
 
   size_t size() const { return times.size(); }
   /// At least what its content takes.
   size_t bytes() const;
   /// At least what a frame adds to that.
   static size_t bytesOf(const RecordedFrame& frame);
-  /// The frame must have as many bodies, and velocities or none, as those before it.
+  /// The frame must have as many bodies and joints, and velocities or none, as those before it.
   void add(const RecordedFrame& frame, const Recording& head);
   RecordedFrame frame(size_t i, const Recording& head) const;
+
+ private:
+  void addJoints(const RecordedFrame& frame);
 };
 Bytes framesContent(const FrameBlock& block);
 /// Throws FileError for a run that does not fit in itself, or names bodies, shapes or kinds that there are not.

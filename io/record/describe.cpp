@@ -3,8 +3,10 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <map>
 
 #include "io/record/chunk.h"
+#include "io/record/json.h"
 #include "io/record/reader.h"
 
 namespace avbd {
@@ -39,6 +41,19 @@ std::string shapesText(const Recording& head) {
   return text.empty() ? "none" : text;
 }
 
+std::string jointsText(const Recording& head) {
+  std::map<JointType, size_t> counts;
+  for (const RecordedJoint& joint : head.joints)
+    if (joint.type) ++counts[*joint.type];
+  std::string text = std::to_string(head.joints.size());
+  const char* comma = ": ";
+  for (const auto& [type, count] : counts) {
+    text.append(comma).append(std::to_string(count)).append(" ").append(record::jointTypeName(type));
+    comma = ", ";
+  }
+  return text;
+}
+
 std::string framesText(const RecordingInfo& info) {
   const std::string count = std::to_string(info.frames);
   return info.frames == 0 ? count : count + ", " + number(info.firstTime) + " s to " + number(info.lastTime) + " s";
@@ -57,7 +72,7 @@ std::vector<std::pair<std::string, std::string>> describeRecording(const std::fi
       {"size", number(static_cast<double>(info.bytes) * 1e-6) + " MB in " + std::to_string(info.chunks) + " chunks"},
       {"bodies", bodiesText(head)},
       {"shapes", shapesText(head)},
-      {"joints", std::to_string(head.joints.size())},
+      {"joints", jointsText(head)},
       {"frames", framesText(info)},
       {"finished", info.finished ? "yes" : "no"},
   };

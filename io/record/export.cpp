@@ -92,6 +92,25 @@ void printSurface(std::ostream& out, const Surfaces::Data& data) {
   out << '}';
 }
 
+/// What is known of a joint beyond its anchors; null is a limit that there is not.
+void printJointForm(std::ostream& out, const RecordedJoint& joint) {
+  constexpr const char* kAxes[] = {"linear_x", "linear_y", "linear_z", "twist", "swing_y", "swing_z"};
+  out << ",\"type\":\"" << jointTypeName(*joint.type) << "\",\"name\":" << jsonText(joint.name)
+      << ",\"rotationA\":" << quatList(joint.frameA.rotation) << ",\"rotationB\":" << quatList(joint.frameB.rotation)
+      << ",\"free\":[";
+  const char* comma = "";
+  for (size_t i = 0; i < 6; ++i) {
+    if (!(joint.freeAxes >> i & 1)) continue;
+    out << comma << '"' << kAxes[i] << '"';
+    comma = ",";
+  }
+  out << ']';
+  printList(out << ',', "limits", joint.limits, [&](const RecordedLimit& limit) {
+    out << '[' << jsonNumber(limit.lower) << ',' << jsonNumber(limit.upper) << ']';
+  });
+  out << ",\"cone\":[" << jsonNumber(joint.coneY) << ',' << jsonNumber(joint.coneZ) << ']';
+}
+
 void printHead(std::ostream& out, const Recording& head) {
   out << "{\"title\":" << jsonText(head.title) << ",\"engine\":" << jsonText(head.engine)
       << ",\"up\":" << jsonList(head.up) << ",\"dt\":" << jsonNumber(head.dt);
@@ -112,7 +131,9 @@ void printHead(std::ostream& out, const Recording& head) {
   printList(out << ",\n", "surfaces", surfaces.all(), [&](const Surfaces::Data& data) { printSurface(out, data); });
   printList(out << ",\n", "joints", head.joints, [&](const RecordedJoint& joint) {
     out << "{\"bodyA\":" << indexText(joint.bodyA) << ",\"bodyB\":" << indexText(joint.bodyB)
-        << ",\"anchorA\":" << jsonList(joint.anchorA) << ",\"anchorB\":" << jsonList(joint.anchorB) << '}';
+        << ",\"anchorA\":" << jsonList(joint.frameA.position) << ",\"anchorB\":" << jsonList(joint.frameB.position);
+    if (joint.type) printJointForm(out, joint);
+    out << '}';
   });
   printList(out << ",\n", "report", head.report,
             [&](const auto& line) { out << '[' << jsonText(line.first) << ',' << jsonText(line.second) << ']'; });
@@ -120,11 +141,17 @@ void printHead(std::ostream& out, const Recording& head) {
 
 void printFrame(std::ostream& out, const RecordedFrame& f) {
   out << "{\"time\":" << jsonNumber(f.time) << ",\"kineticEnergy\":" << jsonNumber(f.kineticEnergy)
-      << ",\"penetrationMax\":" << jsonNumber(f.penetrationMax) << ",\"jointGapMax\":" << jsonNumber(f.jointGapMax);
+      << ",\"penetrationMax\":" << jsonNumber(f.penetrationMax) << ",\"jointGapMax\":" << jsonNumber(f.jointGapMax)
+      << ",\"limitExcessMax\":" << jsonNumber(f.limitExcessMax)
+      << ",\"limitExcessAngleMax\":" << jsonNumber(f.limitExcessAngleMax);
   printList(out << ',', "positions", f.poses, [&](const Pose& pose) { out << jsonList(pose.position); });
   printList(out << ',', "rotations", f.poses, [&](const Pose& pose) { out << quatList(pose.rotation); });
   printList(out << ',', "linear", f.velocities, [&](const Velocity& v) { out << jsonList(v.linear); });
   printList(out << ',', "angular", f.velocities, [&](const Velocity& v) { out << jsonList(v.angular); });
+  printList(out << ',', "joints", f.joints, [&](const RecordedJointState& joint) {
+    out << "{\"force\":" << jsonList(joint.reaction.force) << ",\"torque\":" << jsonList(joint.reaction.torque)
+        << ",\"enabled\":" << (joint.enabled ? "true" : "false") << '}';
+  });
   printList(out << ',', "contacts", f.contacts, [&](const RecordedContact& c) {
     out << "{\"position\":" << jsonList(c.position) << ",\"force\":" << jsonList(c.force)
         << ",\"normal\":" << jsonList(c.normal) << ",\"separation\":" << jsonNumber(c.separation)
@@ -133,9 +160,10 @@ void printFrame(std::ostream& out, const RecordedFrame& f) {
   printList(out << ',', "events", f.events, [&](const RecordedEvent& e) {
     out << "{\"kind\":\"" << eventName(e.kind) << "\",\"shapeA\":" << indexText(e.shapeA)
         << ",\"shapeB\":" << indexText(e.shapeB);
-    if (e.kind == RecordedEventKind::Hit)
+    if (!(e.normal == Vec3{}))
       out << ",\"position\":" << jsonList(e.position) << ",\"normal\":" << jsonList(e.normal)
-          << ",\"speed\":" << jsonNumber(e.speed) << ",\"impulse\":" << jsonNumber(e.impulse);
+          << ",\"impulse\":" << jsonNumber(e.impulse);
+    if (e.kind == RecordedEventKind::Hit) out << ",\"speed\":" << jsonNumber(e.speed);
     out << '}';
   });
   out << '}';

@@ -70,6 +70,13 @@ TEST(RecordExport, JsonHoldsEverything) {
   EXPECT_EQ(json["shapes"][5]["kind"], "cone");
   EXPECT_EQ(json["shapes"][5]["rounding"].get<float>(), 0.02f);
   EXPECT_EQ(json["joints"][1]["bodyA"], nullptr);
+  EXPECT_EQ(json["joints"][1].count("type"), 0u);
+  EXPECT_EQ(json["joints"][0]["type"], "d6");
+  EXPECT_EQ(json["joints"][0]["name"], "hip, \"x\"");
+  EXPECT_EQ(json["joints"][0]["free"], (Json{"linear_x", "twist", "swing_y", "swing_z"}));
+  EXPECT_EQ(json["joints"][0]["limits"][0], (Json{-0.25, 0.5}));
+  EXPECT_EQ(json["joints"][0]["limits"][3], (Json{nullptr, 7}));
+  EXPECT_EQ(json["joints"][0]["rotationA"][2].get<float>(), 0.8f);
   ASSERT_EQ(json["frames"].size(), 6u);
   for (size_t i = 0; i < 6; ++i) {
     const RecordedFrame f = reader.frame(i);
@@ -80,6 +87,10 @@ TEST(RecordExport, JsonHoldsEverything) {
     EXPECT_EQ(frame["linear"].size(), f.velocities.size());
     EXPECT_EQ(frame["contacts"].size(), f.contacts.size());
     EXPECT_EQ(frame["events"].size(), f.events.size());
+    EXPECT_EQ(frame["limitExcessMax"].get<double>(), f.limitExcessMax);
+    ASSERT_EQ(frame["joints"].size(), 2u);
+    EXPECT_EQ(frame["joints"][1]["force"][0].get<float>(), f.joints[1].reaction.force.x);
+    EXPECT_EQ(frame["joints"][1]["enabled"], f.joints[1].enabled);
   }
 }
 

@@ -1,4 +1,6 @@
 // Frames as columns, and the columns as fields.
+#include <limits>
+
 #include "io/file_error.h"
 #include "io/record/content.h"
 #include "io/record/limits.h"
@@ -17,6 +19,8 @@ enum FrameField : uint16_t {
   kKineticEnergy = 8,
   kPenetration = 9,
   kGap = 10,
+  kExcess = 11,
+  kExcessAngle = 12,
   kContactCounts = 20,
   kContactsLeftOut = 21,
   kContactA = 22,
@@ -33,9 +37,13 @@ enum FrameField : uint16_t {
   kEventNormal = 35,
   kEventSpeed = 36,
   kEventImpulse = 37,
+  kJointCount = 40,
+  kJointForce = 41,
+  kJointTorque = 42,
+  kJointEnabled = 43,
 };
 
-constexpr size_t kFieldHeads = 32 * 12;  // of all fields
+constexpr size_t kFieldHeads = 40 * 12;  // of all fields
 
 void append(std::vector<float>& out, Vec3 v) { out.insert(out.end(), {v.x, v.y, v.z}); }
 void append(std::vector<double>& out, Vec3d v) { out.insert(out.end(), {v.x, v.y, v.z}); }
@@ -58,6 +66,7 @@ Vec3d baseOf(uint32_t shapeA, uint32_t shapeB, const Recording& head, const std:
 }
 
 size_t sum(const std::vector<uint32_t>& counts, size_t end) {
+  if (counts.empty()) return 0;  // the field is not there
   size_t total = 0;
   for (size_t i = 0; i < end; ++i) total += counts[i];
   return total;
@@ -69,15 +78,28 @@ void checkShapes(const FieldReader& f, uint16_t id, const std::vector<uint32_t>&
     if (shape != kNotRecorded && shape >= head.shapes.size()) f.refuse(id, "names a shape that there is not");
 }
 
+void readJoints(const FieldReader& f, const Recording& head, FrameBlock& b) {
+  b.joints = f.value<uint32_t>(kJointCount, 0);
+  const size_t all = b.size() * b.joints;
+  b.jointForce = f.listOf<float>(kJointForce, 3 * all);
+  b.jointTorque = f.listOf<float>(kJointTorque, 3 * all);
+  b.jointEnabled = f.listOf<uint8_t>(kJointEnabled, all);
+  if (all > 0 && b.jointForce.empty()) f.refuse(kJointForce, "is missing");
+  // Where the chunk of joints was damaged, nobody knows whose these are.
+  if (b.joints != head.joints.size()) b.joints = 0;
+}
+
 }  // namespace
 
 size_t FrameBlock::bytes() const {
-  return kFieldHeads + 8 * (positions.size() + 6 * times.size() + eventPosition.size()) +
-         4 * (rotations.size() + 2 * linear.size() + 12 * contactA.size() + 8 * eventA.size());
+  return kFieldHeads + 8 * (positions.size() + 8 * times.size() + eventPosition.size()) +
+         4 * (rotations.size() + 2 * linear.size() + 12 * contactA.size() + 8 * eventA.size()) +
+         25 * jointEnabled.size();
 }
 
 size_t FrameBlock::bytesOf(const RecordedFrame& f) {
-  return 8 * 6 + 40 * f.poses.size() + 24 * f.velocities.size() + 48 * f.contacts.size() + 56 * f.events.size();
+  return 8 * 8 + 40 * f.poses.size() + 24 * f.velocities.size() + 48 * f.contacts.size() + 56 * f.events.size() +
+         25 * f.joints.size();
 }
 
 void FrameBlock::add(const RecordedFrame& f, const Recording& head) {
@@ -95,6 +117,9 @@ void FrameBlock::add(const RecordedFrame& f, const Recording& head) {
   kineticEnergy.push_back(f.kineticEnergy);
   penetration.push_back(f.penetrationMax);
   gap.push_back(f.jointGapMax);
+  excess.push_back(f.limitExcessMax);
+  excessAngle.push_back(f.limitExcessAngleMax);
+  addJoints(f);
   contactCounts.push_back(static_cast<uint32_t>(f.contacts.size()));
   contactsLeftOut.push_back(f.contactsLeftOut);
   for (const RecordedContact& c : f.contacts) {
@@ -117,6 +142,15 @@ void FrameBlock::add(const RecordedFrame& f, const Recording& head) {
   }
 }
 
+void FrameBlock::addJoints(const RecordedFrame& f) {
+  joints = static_cast<uint32_t>(f.joints.size());
+  for (const RecordedJointState& joint : f.joints) {
+    append(jointForce, joint.reaction.force);
+    append(jointTorque, joint.reaction.torque);
+    jointEnabled.push_back(joint.enabled ? 1 : 0);
+  }
+}
+
 RecordedFrame FrameBlock::frame(size_t i, const Recording& head) const {
   RecordedFrame f;
   f.time = times[i];
@@ -129,6 +163,11 @@ RecordedFrame FrameBlock::frame(size_t i, const Recording& head) const {
   f.kineticEnergy = at(kineticEnergy, i);
   f.penetrationMax = at(penetration, i);
   f.jointGapMax = at(gap, i);
+  f.limitExcessMax = at(excess, i, std::numeric_limits<double>::quiet_NaN());
+  f.limitExcessAngleMax = at(excessAngle, i, std::numeric_limits<double>::quiet_NaN());
+  for (size_t k = 0, from = i * joints; k < joints; ++k, ++from)
+    f.joints.push_back(
+        {{vectorAt(jointForce, from), vectorAt(jointTorque, from)}, at<uint8_t>(jointEnabled, from, 1) != 0});
   f.contactsLeftOut = at(contactsLeftOut, i);
   for (size_t from = sum(contactCounts, i), left = at(contactCounts, i); left > 0; --left, ++from) {
     const uint32_t a = at(contactA, from, kNotRecorded), b = at(contactB, from, kNotRecorded);
@@ -156,6 +195,8 @@ Bytes framesContent(const FrameBlock& b) {
   out.list(kKineticEnergy, b.kineticEnergy, Encoding::Shuffled);
   out.list(kPenetration, b.penetration, Encoding::Shuffled);
   out.list(kGap, b.gap, Encoding::Shuffled);
+  out.list(kExcess, b.excess, Encoding::Shuffled);
+  out.list(kExcessAngle, b.excessAngle, Encoding::Shuffled);
   out.list(kContactCounts, b.contactCounts);
   out.list(kContactsLeftOut, b.contactsLeftOut);
   out.list(kContactA, b.contactA, Encoding::Shuffled);
@@ -172,6 +213,11 @@ Bytes framesContent(const FrameBlock& b) {
   out.list(kEventNormal, b.eventNormal, Encoding::Shuffled);
   out.list(kEventSpeed, b.eventSpeed, Encoding::Shuffled);
   out.list(kEventImpulse, b.eventImpulse, Encoding::Shuffled);
+  if (b.joints == 0) return out.bytes();
+  out.value(kJointCount, b.joints);
+  out.list(kJointForce, b.jointForce, Encoding::Delta, 3 * b.joints);
+  out.list(kJointTorque, b.jointTorque, Encoding::Delta, 3 * b.joints);
+  out.list(kJointEnabled, b.jointEnabled);
   return out.bytes();
 }
 
@@ -196,6 +242,9 @@ FrameBlock framesOf(const FieldReader& f, const Recording& head) {
   b.kineticEnergy = f.listOf<double>(kKineticEnergy, n);
   b.penetration = f.listOf<double>(kPenetration, n);
   b.gap = f.listOf<double>(kGap, n);
+  b.excess = f.listOf<double>(kExcess, n);
+  b.excessAngle = f.listOf<double>(kExcessAngle, n);
+  readJoints(f, head, b);
   b.contactCounts = f.listOf<uint32_t>(kContactCounts, n);
   b.contactsLeftOut = f.listOf<uint32_t>(kContactsLeftOut, n);
   const size_t contacts = sum(b.contactCounts, b.contactCounts.size());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <functional>
 
 #include "io/record/chunk.h"
 #include "io/record/crc.h"
@@ -127,6 +128,74 @@ TEST(RecordHostile, FramesNameWhatThereIs) {
   shape.list(6, std::vector<float>{1, 0, 0, 0});
   EXPECT_THROW(RecordReader(folder.write("a.avbd", textOf(fileHead()) + bodiesText(1) + chunkText(kSurfaces, surface) +
                                                        chunkText(kShapes, shape))),
+               FileError);
+}
+
+/// One joint between the world and itself, and what else `change` writes of it.
+std::string jointText(const std::function<void(FieldWriter&)>& change) {
+  FieldWriter out;
+  out.list(1, std::vector<uint32_t>{kNotRecorded});
+  out.list(2, std::vector<uint32_t>{kNotRecorded});
+  out.list(3, std::vector<double>(3, 0.0));
+  out.list(4, std::vector<double>(3, 0.0));
+  change(out);
+  return chunkText(kJoints, out);
+}
+
+TEST(RecordHostile, JointsThatAreNoneAreSaidAndLeftOut) {
+  const Folder folder;
+  const auto notes = [&](auto change, size_t joints) {
+    const RecordReader reader(folder.write("a.avbd", textOf(fileHead()) + jointText(change)));
+    EXPECT_EQ(reader.head().joints.size(), joints);
+    return notesOf(reader);
+  };
+  std::vector<float> limits(12, 0.0f);
+  limits[7] = -1;
+  const auto expectNote = [](const std::string& all, const char* part) {
+    EXPECT_NE(all.find(part), std::string::npos) << all;
+  };
+  expectNote(notes([&](FieldWriter& out) { out.list(11, limits); }, 0), "field 11 holds what is no range");
+  limits[7] = NAN;
+  expectNote(notes([&](FieldWriter& out) { out.list(11, limits); }, 0), "field 11 holds what is no range");
+  expectNote(notes(
+                 [](FieldWriter& out) {
+                   out.list(12, std::vector<float>{1, 0});
+                 },
+                 0),
+             "field 12 holds what is no cone");
+  expectNote(notes([](FieldWriter& out) { out.list(6, std::vector<float>{1, 0, 0}); }, 0), "field 6 has 3 elements");
+  expectNote(notes([](FieldWriter& out) { out.texts(8, {"a", "b"}); }, 0), "field 8 has 2 elements");
+  // A type of the future keeps its anchors.
+  expectNote(notes([](FieldWriter& out) { out.value(7, uint8_t{77}); }, 1), "types that are not known");
+}
+
+TEST(RecordHostile, WhatJointsDidFitsTheFrames) {
+  const Folder folder;
+  const auto frameOf = [&](auto change, size_t joints) {
+    FieldWriter out = timesOnly(1, 0);
+    change(out);
+    std::string bytes = textOf(fileHead());
+    for (size_t i = 0; i < joints; ++i) bytes += jointText([](FieldWriter&) {});
+    return RecordReader(folder.write("a.avbd", bytes + chunkText(kFrames, out))).frame(0);
+  };
+  const auto two = [](FieldWriter& out) {
+    out.value(40, 2u);
+    out.list(41, std::vector<float>{1, 2, 3, 4, 5, 6});
+  };
+  const RecordedFrame frame = frameOf(two, 2);
+  ASSERT_EQ(frame.joints.size(), 2u);
+  EXPECT_EQ(frame.joints[1].reaction.force, (Vec3{4, 5, 6}));
+  EXPECT_EQ(frame.joints[1].reaction.torque, Vec3{});
+  EXPECT_TRUE(frame.joints[1].enabled);
+  EXPECT_TRUE(frameOf(two, 1).joints.empty()) << "joints that were lost";
+  EXPECT_THROW(frameOf([](FieldWriter& out) { out.value(40, 2u); }, 2), FileError);
+  EXPECT_THROW(frameOf([](FieldWriter& out) { out.value(40, 0xffffffffu); }, 2), FileError);
+  EXPECT_THROW(frameOf(
+                   [&](FieldWriter& out) {
+                     two(out);
+                     out.list(43, std::vector<uint8_t>{1});
+                   },
+                   2),
                FileError);
 }
 

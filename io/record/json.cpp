@@ -95,6 +95,13 @@ std::string_view bodyTypeName(BodyType type) {
   return type == BodyType::Static ? "static" : type == BodyType::Kinematic ? "kinematic" : "dynamic";
 }
 
+std::string_view jointTypeName(JointType type) {
+  constexpr std::string_view kNames[] = {"ball", "fixed",    "tet_volume", "hinge",    "slider",
+                                         "d6",   "distance", "pulley",     "coupling", "custom"};
+  const auto i = static_cast<size_t>(type);
+  return i < std::size(kNames) ? kNames[i] : "unknown";
+}
+
 std::string_view eventName(RecordedEventKind kind) {
   constexpr std::string_view kNames[] = {"touch_begin", "touch_end", "trigger_enter", "trigger_leave", "hit"};
   const auto i = static_cast<size_t>(kind);

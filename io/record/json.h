@@ -22,6 +22,7 @@ std::string jsonObject(Quat q);
 
 std::string_view geometryName(const Geometry& geometry);
 std::string_view bodyTypeName(BodyType type);
+std::string_view jointTypeName(JointType type);
 std::string_view eventName(RecordedEventKind kind);
 
 }  // namespace avbd::record

@@ -13,7 +13,7 @@ constexpr std::string_view kSceneSchema =
 constexpr std::string_view kTransformsSchema =
     R"({"title":"foxglove.FrameTransforms","type":"object","properties":{"transforms":{"type":"array","items":{"type":"object","properties":{"timestamp":{"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},"parent_frame_id":{"type":"string"},"child_frame_id":{"type":"string"},"translation":{"type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}},"rotation":{"type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"},"w":{"type":"number"}}}}}}}})";
 constexpr std::string_view kFiguresSchema =
-    R"({"title":"avbd.Figures","type":"object","properties":{"kinetic_energy":{"type":"number"},"penetration_max":{"type":"number"},"joint_gap_max":{"type":"number"},"contact_points":{"type":"integer"}}})";
+    R"({"title":"avbd.Figures","type":"object","properties":{"kinetic_energy":{"type":"number"},"penetration_max":{"type":"number"},"joint_gap_max":{"type":"number"},"limit_excess_max":{"type":["number","null"]},"limit_excess_angle_max":{"type":["number","null"]},"contact_points":{"type":"integer"}}})";
 constexpr std::string_view kContactsSchema =
     R"({"title":"avbd.Contacts","type":"object","properties":{"contacts":{"type":"array","items":{"type":"object","properties":{"position":{"type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}},"force":{"type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}},"normal":{"type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}},"separation":{"type":"number"},"body_a":{"type":"string"},"body_b":{"type":"string"}}}}}})";
 constexpr std::string_view kEventsSchema =
@@ -173,7 +173,8 @@ std::string McapMessages::transforms(const RecordedFrame& frame, uint64_t nanose
 
 std::string McapMessages::figures(const RecordedFrame& f) const {
   return "{\"kinetic_energy\":" + jsonNumber(f.kineticEnergy) + ",\"penetration_max\":" + jsonNumber(f.penetrationMax) +
-         ",\"joint_gap_max\":" + jsonNumber(f.jointGapMax) +
+         ",\"joint_gap_max\":" + jsonNumber(f.jointGapMax) + ",\"limit_excess_max\":" + jsonNumber(f.limitExcessMax) +
+         ",\"limit_excess_angle_max\":" + jsonNumber(f.limitExcessAngleMax) +
          ",\"contact_points\":" + std::to_string(f.contacts.size() + f.contactsLeftOut) + "}";
 }
 

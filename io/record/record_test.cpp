@@ -23,6 +23,29 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
+void expectSameJoints(const RecordedFrame& a, const RecordedFrame& b) {
+  EXPECT_TRUE(sameBits<double>({a.limitExcessMax, a.limitExcessAngleMax}, {b.limitExcessMax, b.limitExcessAngleMax}));
+  ASSERT_EQ(a.joints.size(), b.joints.size());
+  for (size_t i = 0; i < a.joints.size(); ++i) {
+    EXPECT_EQ(a.joints[i].reaction.force, b.joints[i].reaction.force);
+    EXPECT_EQ(a.joints[i].reaction.torque, b.joints[i].reaction.torque);
+    EXPECT_EQ(a.joints[i].enabled, b.joints[i].enabled);
+  }
+}
+
+void expectSameJoint(const RecordedJoint& a, const RecordedJoint& b) {
+  EXPECT_EQ(a.bodyA, b.bodyA);
+  EXPECT_EQ(a.bodyB, b.bodyB);
+  EXPECT_EQ(a.frameA, b.frameA);
+  EXPECT_EQ(a.frameB, b.frameB);
+  EXPECT_EQ(a.type, b.type);
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.freeAxes, b.freeAxes);
+  EXPECT_EQ(a.limits, b.limits);
+  EXPECT_EQ(a.coneY, b.coneY);
+  EXPECT_EQ(a.coneZ, b.coneZ);
+}
+
 void expectSame(const RecordedFrame& a, const RecordedFrame& b) {
   EXPECT_EQ(a.time, b.time);
   EXPECT_TRUE(sameBits(a.poses, b.poses)) << "at time " << a.time;
@@ -30,6 +53,7 @@ void expectSame(const RecordedFrame& a, const RecordedFrame& b) {
   EXPECT_EQ(a.kineticEnergy, b.kineticEnergy);
   EXPECT_EQ(a.penetrationMax, b.penetrationMax);
   EXPECT_EQ(a.jointGapMax, b.jointGapMax);
+  expectSameJoints(a, b);
   EXPECT_EQ(a.contactsLeftOut, b.contactsLeftOut);
   ASSERT_EQ(a.contacts.size(), b.contacts.size());
   for (size_t i = 0; i < a.contacts.size(); ++i) {
@@ -45,6 +69,8 @@ void expectSame(const RecordedFrame& a, const RecordedFrame& b) {
   for (size_t i = 0; i < a.events.size(); ++i) {
     EXPECT_EQ(a.events[i].kind, b.events[i].kind);
     EXPECT_EQ(a.events[i].position, b.events[i].position);
+    EXPECT_EQ(a.events[i].normal, b.events[i].normal);
+    EXPECT_EQ(a.events[i].speed, b.events[i].speed);
     EXPECT_EQ(a.events[i].impulse, b.events[i].impulse);
   }
 }
@@ -139,9 +165,9 @@ TEST(Record, WhatGoesInComesOut) {
     EXPECT_EQ(std::get<Cone>(reader.head().shapes[5].geometry).rounding, 0.02f);
     EXPECT_EQ(std::get<Box>(reader.head().shapes[1].geometry).z, 0.3f);
     ASSERT_EQ(reader.head().joints.size(), 2u);
-    EXPECT_EQ(reader.head().joints[1].anchorA, (Vec3d{1e6, 0, 0}));
+    for (size_t i = 0; i < 2; ++i) expectSameJoint(reader.head().joints[i], head.joints[i]);
     EXPECT_EQ(reader.head().report[1].second, "\n");
-    for (const size_t i : {29, 0, 13, 12, 4, 3, 28}) expectSame(reader.frame(i), sampleFrame(head, i, i < 13));
+    for (const size_t i : {29, 0, 13, 12, 4, 3, 28, 15, 16}) expectSame(reader.frame(i), sampleFrame(head, i, i < 13));
     EXPECT_TRUE(reader.verify().empty());
     EXPECT_THROW(reader.frame(30), FileError);
     EXPECT_EQ(reader.readAll(7).frames.size(), 6u);  // 0 7 14 21 28 and the last
@@ -248,6 +274,33 @@ TEST(Record, OtherVersions) {
   EXPECT_NE(complaintOf(folder.file(".")).find("directory"), std::string::npos);
 }
 
+/// What the writer of version 1.0 made of sampleHead(3) and five of its frames, unpacked.
+TEST(Record, AFileOfVersionOneZeroLacksOnlyWhatCameLater) {
+  RecordReader reader(std::filesystem::path(__FILE__).parent_path() / "corpus/version_1_0.avbd");
+  EXPECT_EQ(reader.info().versionMinor, 0);
+  EXPECT_TRUE(reader.info().finished);
+  EXPECT_TRUE(reader.info().notes.empty());
+  EXPECT_TRUE(reader.verify().empty());
+  const Recording head = sampleHead();
+  ASSERT_EQ(reader.head().joints.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    RecordedJoint expected;
+    expected.bodyA = head.joints[i].bodyA;
+    expected.bodyB = head.joints[i].bodyB;
+    expected.frameA.position = head.joints[i].frameA.position;
+    expected.frameB.position = head.joints[i].frameB.position;
+    expectSameJoint(reader.head().joints[i], expected);
+  }
+  ASSERT_EQ(reader.frameCount(), 5u);
+  for (size_t i = 0; i < 5; ++i) {
+    RecordedFrame expected = sampleFrame(head, i);
+    expected.joints.clear();
+    expected.limitExcessMax = expected.limitExcessAngleMax = NAN;
+    std::erase_if(expected.events, [](const RecordedEvent& e) { return e.kind != RecordedEventKind::Hit; });
+    expectSame(reader.frame(i), expected);
+  }
+}
+
 TEST(Record, WhatANewerWriterAddsIsLeftOut) {
   const Folder folder;
   std::string bytes = writeSample(folder, 2, {}, false);
@@ -327,6 +380,15 @@ TEST(Record, ABodyMoreOrATimeBackIsRefused) {
   frame = sampleFrame(head, 2);
   frame.poses.pop_back();
   EXPECT_THROW(writer.add(frame), std::invalid_argument);
+  frame = sampleFrame(head, 2);
+  frame.joints.pop_back();
+  EXPECT_THROW(writer.add(frame), std::invalid_argument);
+  head.joints[0].limits[2] = {1, 0};
+  EXPECT_THROW(RecordWriter(folder.file("b.avbd"), head), std::invalid_argument);
+  head = sampleHead();
+  head.joints[1].coneZ = NAN;
+  EXPECT_THROW(RecordWriter(folder.file("b.avbd"), head), std::invalid_argument);
+  head = sampleHead();
   head.shapes[0].body = 3;
   EXPECT_THROW(RecordWriter(folder.file("b.avbd"), head), std::invalid_argument);
   EXPECT_FALSE(std::filesystem::exists(folder.file("b.avbd")));

@@ -3,6 +3,8 @@
 
 #include <avbd/avbd.h>
 
+#include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,9 +30,24 @@ struct RecordedBody {
   BodyType type = BodyType::Dynamic;
 };
 
+/// Between which a coordinate keeps [m, rad]; infinite: no stop on that side.
+struct RecordedLimit {
+  float lower = -std::numeric_limits<float>::infinity();
+  float upper = std::numeric_limits<float>::infinity();
+  friend bool operator==(const RecordedLimit&, const RecordedLimit&) = default;
+};
+
+/// As it was when the recording began.
 struct RecordedJoint {
-  uint32_t bodyA = 0, bodyB = 0;  ///< index into bodies; kNotRecorded is the world
-  Vec3d anchorA, anchorB;         ///< in each body's frame; in the world where there is no body
+  uint32_t bodyA = 0, bodyB = 0;    ///< index into bodies; kNotRecorded is the world
+  Pose frameA{}, frameB{};          ///< in each body's frame; in the world where there is no body
+  std::optional<JointType> type{};  ///< none: not known, nor what stands below, nor the frames' rotations
+  std::string name{};               ///< of its coordinates in the model's file, with commas between; may be empty
+  uint8_t freeAxes = 0;             ///< bit i: the coordinate JointAxis(i) is not locked
+  /// By JointAxis. Of a DistanceJoint the first is that of its length.
+  std::array<RecordedLimit, 6> limits{};
+  /// Of a SwingCone [rad]; infinite: none.
+  float coneY = std::numeric_limits<float>::infinity(), coneZ = std::numeric_limits<float>::infinity();
 };
 
 struct RecordedContact {
@@ -47,9 +64,16 @@ enum class RecordedEventKind : uint8_t { TouchBegin, TouchEnd, TriggerEnter, Tri
 struct RecordedEvent {
   RecordedEventKind kind = RecordedEventKind::TouchBegin;
   uint32_t shapeA = kNotRecorded, shapeB = kNotRecorded;  ///< index into shapes
-  Vec3d position{};                                       ///< of a hit
-  Vec3 normal{};                                          ///< of a hit, from A to B
-  float speed = 0, impulse = 0;                           ///< of a hit [m/s], [N s]
+  Vec3d position{};                                       ///< of a touch or hit
+  Vec3 normal{};                                          ///< likewise, from A to B; zero: not known
+  float speed = 0;                                        ///< of a hit [m/s]
+  float impulse = 0;                                      ///< of a touch or hit [N s]
+};
+
+/// What a joint did in the step before the frame.
+struct RecordedJointState {
+  JointReaction reaction{};  ///< on A, world axes, at A's anchor
+  bool enabled = true;
 };
 
 struct RecordedFrame {
@@ -62,6 +86,11 @@ struct RecordedFrame {
   double kineticEnergy = 0;   ///< [J]
   double penetrationMax = 0;  ///< [m]
   double jointGapMax = 0;     ///< [m]
+  /// [m], [rad] that a coordinate lies beyond its limits, or a swing beyond its cone, of the joints that are enabled;
+  /// NaN: not known.
+  double limitExcessMax = std::numeric_limits<double>::quiet_NaN();
+  double limitExcessAngleMax = std::numeric_limits<double>::quiet_NaN();
+  std::vector<RecordedJointState> joints{};  ///< of all joints, in order of Recording::joints, or empty
 };
 
 struct Recording {

@@ -27,6 +27,16 @@ class Chance {
   uint64_t state_ = 1;
 };
 
+/// One of which everything is known, one of which only the anchors are.
+inline std::vector<RecordedJoint> sampleJoints() {
+  RecordedJoint known{0, 1, {{1, 2, 3}, {0.6f, 0, 0.8f, 0}}, {{4, 5, 6}, {0, 0, 0, 1}}, JointType::D6, "hip, \"x\""};
+  known.freeAxes = 0x39;
+  known.limits[0] = {-0.25f, 0.5f};
+  known.limits[3].upper = 7;
+  known.coneY = 0.5f;
+  return {known, {kNotRecorded, 1, {{1e6, 0, 0}, {}}, {{0, 0, 0.1}, {}}}};
+}
+
 inline Recording sampleHead(size_t bodies = 3) {
   Recording r;
   r.title = "sample \"ä\" \n";
@@ -42,7 +52,7 @@ inline Recording sampleHead(size_t bodies = 3) {
         {static_cast<uint32_t>(i), kinds[i % 7], {{0.1 * static_cast<double>(i), 0, 1e9}, {0, 1, 0, 0}}, i % 2 == 1});
   }
   if (bodies > 2) r.shapes[1].color = Color{12, 200, 255, 128};
-  if (bodies > 1) r.joints = {{0, 1, {1, 2, 3}, {4, 5, 6}}, {kNotRecorded, 1, {1e6, 0, 0}, {0, 0, 0.1}}};
+  if (bodies > 1) r.joints = sampleJoints();
   return r;
 }
 
@@ -60,9 +70,15 @@ inline RecordedFrame sampleFrame(const Recording& head, size_t number, bool velo
     f.contacts.push_back({f.poses[1].position + chance.vector(), chance.vector(), {0, 1, 0}, -0.01f, 1, 0});
   f.contactsLeftOut = static_cast<uint32_t>(number % 4);
   if (number % 2 == 1) f.events.push_back({RecordedEventKind::Hit, 0, 1, {1e6, 2, 3}, {0, 0, 1}, 3.5f, 0.25f});
+  if (number % 4 == 3) f.events.push_back({RecordedEventKind::TouchEnd, 1, 0, {7, 8, 9}, {0, -1, 0}, 0, 0.75f});
   f.kineticEnergy = chance.next();
   f.penetrationMax = 1e-3;
   f.jointGapMax = 1e-6 * static_cast<double>(number);
+  if (number % 16 == 15) return f;  // of joints nothing is known
+  f.limitExcessMax = 1e-3 * static_cast<double>(number);
+  f.limitExcessAngleMax = 0.25;
+  for (size_t i = 0; i < head.joints.size(); ++i)
+    f.joints.push_back({{{static_cast<float>(number), 1, -2}, {0, 0, 3}}, (number + i) % 3 != 0});
   return f;
 }
 

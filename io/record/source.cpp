@@ -24,7 +24,7 @@ RecordSource::RecordSource(const Model& model) {
       if (i < body.colors.size()) head_.shapes.back().color = body.colors[i];
     }
   }
-  addJoints(world);
+  addJoints(model);
 }
 
 uint32_t RecordSource::slotOf(BodyId id) const {
@@ -37,19 +37,6 @@ uint32_t RecordSource::slotOf(ShapeId id) const {
   return it == shapes_.end() ? kNotRecorded : it->second;
 }
 
-void RecordSource::addJoints(const World& world) {
-  const auto add = [&](const auto& joint) {
-    head_.joints.push_back({slotOf(joint.bodyA), slotOf(joint.bodyB), joint.frameA.position, joint.frameB.position});
-  };
-  for (const JointId id : world.joints()) {
-    if (world.type(id) == JointType::Ball) add(world.ballJoint(id));
-    if (world.type(id) == JointType::Fixed) add(world.fixedJoint(id));
-    if (world.type(id) == JointType::Hinge) add(world.hingeJoint(id));
-    if (world.type(id) == JointType::Slider) add(world.sliderJoint(id));
-    if (world.type(id) == JointType::D6) add(world.d6Joint(id));
-  }
-}
-
 RecordedFrame RecordSource::frame(const Model& model, double time, size_t contactsMost) {
   const World& world = model.world;
   RecordedFrame frame;
@@ -59,6 +46,7 @@ RecordedFrame RecordSource::frame(const Model& model, double time, size_t contac
   world.getPoses(ids_, frame.poses);
   world.getVelocities(ids_, frame.velocities);
   frame.kineticEnergy = world.kineticEnergy();
+  addJointStates(world, frame);
   addContacts(world, contactsMost, frame);
   frame.events.swap(events_);
   return frame;
@@ -93,8 +81,11 @@ void RecordSource::addContacts(const World& world, size_t most, RecordedFrame& f
 void RecordSource::watch(const World& world) {
   const Events& events = world.events();
   using Kind = RecordedEventKind;
-  for (const TouchEvent& e : events.begins) events_.push_back({Kind::TouchBegin, slotOf(e.shapeA), slotOf(e.shapeB)});
-  for (const TouchEvent& e : events.ends) events_.push_back({Kind::TouchEnd, slotOf(e.shapeA), slotOf(e.shapeB)});
+  const auto touch = [&](Kind kind, const TouchEvent& e) {
+    events_.push_back({kind, slotOf(e.shapeA), slotOf(e.shapeB), e.position, e.normal, 0, e.impulse});
+  };
+  for (const TouchEvent& e : events.begins) touch(Kind::TouchBegin, e);
+  for (const TouchEvent& e : events.ends) touch(Kind::TouchEnd, e);
   for (const TriggerEvent& e : events.enters)
     events_.push_back({Kind::TriggerEnter, slotOf(e.trigger), slotOf(e.visitor)});
   for (const TriggerEvent& e : events.leaves)

@@ -10,6 +10,12 @@
 
 namespace avbd {
 
+/// How far a joint's coordinates lie beyond their limits, and its swing beyond its cone.
+struct LimitExcess {
+  double length = 0, angle = 0;  ///< [m], [rad]
+};
+LimitExcess limitExcess(const World& world, JointId joint);
+
 class RecordSource {
  public:
   explicit RecordSource(const Model& model);
@@ -19,18 +25,20 @@ class RecordSource {
   void watch(const World& world);
   /// The world's state now, with the events watched since the last frame. Of more contact points than `contactsMost`
   /// the strongest are kept. penetrationMax and jointGapMax are left for others to measure. The bodies and shapes must
-  /// be those of the constructor's model.
+  /// be those of the constructor's model; a joint destroyed since is one that is not enabled.
   RecordedFrame frame(const Model& model, double time, size_t contactsMost = SIZE_MAX);
   /// Index into head().bodies, or kNotRecorded.
   uint32_t slotOf(BodyId id) const;
 
  private:
   uint32_t slotOf(ShapeId id) const;
-  void addJoints(const World& world);
+  void addJoints(const Model& model);
+  void addJointStates(const World& world, RecordedFrame& frame) const;
   void addContacts(const World& world, size_t most, RecordedFrame& frame) const;
 
   Recording head_;
   std::vector<BodyId> ids_;
+  std::vector<JointId> joints_;  // of the head's joints
   std::vector<RecordedEvent> events_;
   std::unordered_map<uint32_t, uint32_t> bodies_, shapes_;  // from an id's index to the head's order
 };

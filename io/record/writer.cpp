@@ -26,6 +26,14 @@ void checkReport(const std::vector<std::pair<std::string, std::string>>& report)
     refuse("report", std::to_string(report.size()) + " lines", "must be at most " + std::to_string(kReportMost));
 }
 
+void checkJoint(const RecordedJoint& joint, const std::string& name) {
+  for (const RecordedLimit& limit : joint.limits)
+    if (!(limit.lower <= limit.upper))
+      refuse(name + "limits", std::to_string(limit.lower) + " " + std::to_string(limit.upper), "must be a range");
+  for (const float limit : {joint.coneY, joint.coneZ})
+    if (!(limit > 0)) refuse(name + "cone", std::to_string(limit), "must be > 0");
+}
+
 void checkHead(const Recording& r) {
   checkReport(r.report);
   const float up = length(r.up);
@@ -38,6 +46,7 @@ void checkHead(const Recording& r) {
     for (const uint32_t body : {r.joints[i].bodyA, r.joints[i].bodyB})
       if (body != kNotRecorded && body >= r.bodies.size())
         refuse("joints[" + std::to_string(i) + "].body", std::to_string(body), range);
+  for (size_t i = 0; i < r.joints.size(); ++i) checkJoint(r.joints[i], "joints[" + std::to_string(i) + "].");
 }
 
 Recording withoutFrames(const Recording& r) {
@@ -144,6 +153,9 @@ void RecordWriter::check(const RecordedFrame& f) const {
   if (f.poses.size() != bodies) refuse(name + "poses", std::to_string(f.poses.size()), range);
   if (!f.velocities.empty() && f.velocities.size() != bodies)
     refuse(name + "velocities", std::to_string(f.velocities.size()), range);
+  if (!f.joints.empty() && f.joints.size() != head_.joints.size())
+    refuse(name + "joints", std::to_string(f.joints.size()),
+           "must be as many as the joints, " + std::to_string(head_.joints.size()));
   const auto checkShapes = [&](const char* list, const auto& items) {
     for (const auto& item : items)
       for (const uint32_t shape : {item.shapeA, item.shapeB})
@@ -167,8 +179,8 @@ void RecordWriter::add(const RecordedFrame& f) {
   if (!open_) throw std::logic_error("RecordWriter::add after finish");
   check(f);
   if (block_.size() > 0 &&
-      (block_.hasVelocities != !f.velocities.empty() || block_.bytes() + FrameBlock::bytesOf(f) > kChunkMost ||
-       block_.eventKind.size() + f.events.size() > kEventsMost))
+      (block_.hasVelocities != !f.velocities.empty() || block_.joints != f.joints.size() ||
+       block_.bytes() + FrameBlock::bytesOf(f) > kChunkMost || block_.eventKind.size() + f.events.size() > kEventsMost))
     flush();
   if (block_.size() == 0) block_.first = next_;
   block_.add(f, head_);

@@ -114,26 +114,53 @@ class Drawing {
   }
 
   void joint(JointId id) {
-    const auto anchors = [&](const auto& j) {
-      const auto end = [&](BodyId body, const Pose& frame) {
-        return near(body ? (world_.pose(body) * frame).position : frame.position);
-      };
-      const Vec3 a = end(j.bodyA, j.frameA), b = end(j.bodyB, j.frameB);
-      if (j.bodyA) sink_.line(near(world_.worldCenterOfMass(j.bodyA)), a, kJoint);
-      if (j.bodyB) sink_.line(near(world_.worldCenterOfMass(j.bodyB)), b, kJoint);
-      sink_.line(a, b, kGap);
-      sink_.point(a, kPointSize, kJoint);
-    };
-    if (world_.type(id) == JointType::Ball) return anchors(world_.ballJoint(id));
-    if (world_.type(id) == JointType::Fixed) return anchors(world_.fixedJoint(id));
-    if (world_.type(id) == JointType::Hinge) return anchors(world_.hingeJoint(id));
-    if (world_.type(id) == JointType::Slider) return anchors(world_.sliderJoint(id));
-    if (world_.type(id) == JointType::D6) return anchors(world_.d6Joint(id));
-    const TetVolume volume = world_.tetVolume(id);
-    for (size_t i = 0; i < 4; ++i)
-      for (size_t k = i + 1; k < 4; ++k)
-        sink_.line(near(world_.worldCenterOfMass(volume.bodies[i])), near(world_.worldCenterOfMass(volume.bodies[k])),
-                   kJoint);
+    const JointType type = world_.type(id);
+    if (type == JointType::TetVolume || type == JointType::Coupling || type == JointType::Custom) return between(id);
+    const auto [a, b] = ends(id);
+    const BodyId bodyA = sides(id)[0], bodyB = sides(id)[1];
+    if (bodyA) sink_.line(near(world_.worldCenterOfMass(bodyA)), a, kJoint);
+    if (bodyB) sink_.line(near(world_.worldCenterOfMass(bodyB)), b, kJoint);
+    if (type == JointType::Pulley) {
+      const PulleyJoint pulley = world_.pulleyJoint(id);
+      sink_.line(a, near(pulley.wheelA), kJoint), sink_.line(b, near(pulley.wheelB), kJoint);
+      return;
+    }
+    sink_.line(a, b, type == JointType::Distance ? kJoint : kGap);
+    sink_.point(a, kPointSize, kJoint);
+  }
+
+  std::array<Vec3, 2> ends(JointId id) const {
+    const std::array<Pose, 2> frames = world_.worldFrames(id);
+    return {near(frames[0].position), near(frames[1].position)};
+  }
+
+  /// A's and B's body; null for the world.
+  std::array<BodyId, 2> sides(JointId id) const {
+    const auto of = [](const auto& def) { return std::array{def.bodyA, def.bodyB}; };
+    switch (world_.type(id)) {
+      case JointType::Ball:
+        return of(world_.ballJoint(id));
+      case JointType::Fixed:
+        return of(world_.fixedJoint(id));
+      case JointType::Hinge:
+        return of(world_.hingeJoint(id));
+      case JointType::Slider:
+        return of(world_.sliderJoint(id));
+      case JointType::D6:
+        return of(world_.d6Joint(id));
+      case JointType::Distance:
+        return of(world_.distanceJoint(id));
+      default:
+        return of(world_.pulleyJoint(id));
+    }
+  }
+
+  /// What has no frames: a line between each two of its bodies.
+  void between(JointId id) {
+    const std::vector<BodyId> bodies = world_.bodies(id);
+    for (size_t i = 0; i < bodies.size(); ++i)
+      for (size_t k = i + 1; k < bodies.size(); ++k)
+        sink_.line(near(world_.worldCenterOfMass(bodies[i])), near(world_.worldCenterOfMass(bodies[k])), kJoint);
   }
 
   void contact(const Contact& c) {
@@ -158,13 +185,8 @@ class Drawing {
         unite(c.bodyA, c.bodyB);
     }
     for (const JointId id : world_.joints()) {
-      if (world_.type(id) == JointType::Ball) unite(world_.ballJoint(id).bodyA, world_.ballJoint(id).bodyB);
-      if (world_.type(id) == JointType::Fixed) unite(world_.fixedJoint(id).bodyA, world_.fixedJoint(id).bodyB);
-      if (world_.type(id) == JointType::Hinge) unite(world_.hingeJoint(id).bodyA, world_.hingeJoint(id).bodyB);
-      if (world_.type(id) == JointType::Slider) unite(world_.sliderJoint(id).bodyA, world_.sliderJoint(id).bodyB);
-      if (world_.type(id) == JointType::D6) unite(world_.d6Joint(id).bodyA, world_.d6Joint(id).bodyB);
-      if (world_.type(id) != JointType::TetVolume) continue;
-      for (const BodyId body : world_.tetVolume(id).bodies) unite(world_.tetVolume(id).bodies[0], body);
+      const std::vector<BodyId> bodies = world_.isEnabled(id) ? world_.bodies(id) : std::vector<BodyId>{};
+      for (const BodyId body : bodies) unite(bodies[0], body);
     }
   }
 

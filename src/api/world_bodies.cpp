@@ -2,6 +2,7 @@
 #include "api/world_impl.h"
 #include "world/bodies.h"
 #include "world/check.h"
+#include "world/joints.h"
 #include "world/limits.h"
 #include "world/measure.h"
 #include "world/pairs.h"
@@ -98,6 +99,7 @@ void World::addForce(BodyId id, Vec3 force) {
 void World::clearForces() {
   WorldData& data = impl_->data;
   data.bodyIds.forEach([&](uint32_t slot) { data.bodies[slot].force = data.bodies[slot].torque = {}; });
+  clearJointForces(data);
 }
 
 void World::addForceAt(BodyId id, Vec3 force, Vec3d point) {
@@ -175,6 +177,15 @@ void World::setMaxSpeeds(BodyId id, float linear, float angular) {
   check(path / "angular", angular, positive(kMaxSpin));
   body.maxLinearSpeed = linear;
   body.maxAngularSpeed = angular;
+}
+
+float World::linearDamping(BodyId id) const { return bodyOf(impl_->data, id, "World::linearDamping").linearDamping; }
+float World::angularDamping(BodyId id) const { return bodyOf(impl_->data, id, "World::angularDamping").angularDamping; }
+float World::gravityScale(BodyId id) const { return bodyOf(impl_->data, id, "World::gravityScale").gravityScale; }
+uint8_t World::locks(BodyId id) const { return bodyOf(impl_->data, id, "World::locks").locks; }
+float World::maxLinearSpeed(BodyId id) const { return bodyOf(impl_->data, id, "World::maxLinearSpeed").maxLinearSpeed; }
+float World::maxAngularSpeed(BodyId id) const {
+  return bodyOf(impl_->data, id, "World::maxAngularSpeed").maxAngularSpeed;
 }
 
 uint64_t World::userData(BodyId id) const { return bodyOf(impl_->data, id, "World::userData").userData; }

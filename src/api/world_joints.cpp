@@ -1,5 +1,8 @@
 // Joints: making, reading back and how well they hold.
+#include <algorithm>
+
 #include "api/world_impl.h"
+#include "world/bodies.h"
 #include "world/check.h"
 #include "world/joint_coordinates.h"
 #include "world/joints.h"
@@ -15,8 +18,10 @@ const JointData& jointOf(const WorldData& data, JointId id, const char* call) {
 const JointData& jointOfType(const WorldData& data, JointId id, JointType type, const char* call) {
   const JointData& joint = jointOf(data, id, call);
   if (joint.type == type) return joint;
-  constexpr const char* kRange[] = {"must name a ball joint", "must name a fixed joint", "must name a tet volume",
-                                    "must name a hinge",      "must name a slider",      "must name a D6 joint"};
+  constexpr const char* kRange[] = {"must name a ball joint",     "must name a fixed joint", "must name a tet volume",
+                                    "must name a hinge",          "must name a slider",      "must name a D6 joint",
+                                    "must name a distance joint", "must name a pulley",      "must name a coupling",
+                                    "must name a custom joint"};
   (Path(call) / "id").refuse(toText(id), kRange[static_cast<size_t>(type)]);
 }
 
@@ -33,36 +38,6 @@ Def pairDef(const WorldData& data, const JointData& joint) {
           joint.userData};
 }
 
-uint32_t d6SlotOf(const WorldData& data, JointId id, const char* call) {
-  const uint32_t slot = slotOf(data, id, Path(call) / "id");
-  if (!isD6(data.joints[slot].type)) (Path(call) / "id").refuse(toText(id), "must name a hinge, slider or D6 joint");
-  return slot;
-}
-
-void checkAxis(const Path& path, JointAxis axis) {
-  if (static_cast<size_t>(axis) < 6) return;
-  path.refuse(toText(static_cast<int>(axis)), "must be one of the six of JointAxis");
-}
-
-/// The coordinate that a hinge or slider leaves free.
-JointAxis freeAxisOf(const WorldData& data, JointId id, const char* call) {
-  const JointType type = data.joints[d6SlotOf(data, id, call)].type;
-  if (type == JointType::Hinge) return JointAxis::Twist;
-  if (type == JointType::Slider) return JointAxis::LinearX;
-  (Path(call) / "id").refuse(toText(id), "must name a hinge or slider where no axis is given");
-}
-
-D6Axis& freeAxis(WorldData& data, JointId id, JointAxis axis, const char* call) {
-  const uint32_t slot = d6SlotOf(data, id, call);
-  const Path path(call);
-  checkAxis(path / "axis", axis);
-  D6Axis& to = data.d6[slot].axis[innerAxis(data.d6[slot], axis)];
-  if (to.motion == AxisMotion::Locked) {
-    (path / "axis").refuse(toText(static_cast<int>(axis)), "must be an axis that the joint leaves free");
-  }
-  return to;
-}
-
 /// A HingeJoint or SliderJoint as it was given, with the limit and drive of now.
 template <class Def>
 Def oneAxisDef(const WorldData& data, JointId id, JointType type, JointAxis axis, const char* call) {
@@ -75,6 +50,9 @@ Def oneAxisDef(const WorldData& data, JointId id, JointType type, JointAxis axis
           free.limit,
           free.drive,
           free.friction,
+          free.spring,
+          free.armature,
+          free.maxVelocity,
           joint.collideConnected,
           joint.userData};
 }
@@ -111,6 +89,26 @@ JointId World::create(const D6Joint& def) {
   return impl_->data.jointIds.id(addJoint(impl_->data, plan.joint, plan.d6));
 }
 
+JointId World::create(const DistanceJoint& def) {
+  const LinkPlan plan = checkedJoint(impl_->data, def);
+  return impl_->data.jointIds.id(addJoint(impl_->data, plan.joint, plan.link));
+}
+
+JointId World::create(const PulleyJoint& def) {
+  const LinkPlan plan = checkedJoint(impl_->data, def);
+  return impl_->data.jointIds.id(addJoint(impl_->data, plan.joint, plan.link));
+}
+
+JointId World::create(const Coupling& def) {
+  const LinkPlan plan = checkedJoint(impl_->data, def);
+  return impl_->data.jointIds.id(addJoint(impl_->data, plan.joint, plan.link));
+}
+
+JointId World::create(const CustomJoint& def) {
+  const LinkPlan plan = checkedJoint(impl_->data, def);
+  return impl_->data.jointIds.id(addJoint(impl_->data, plan.joint, plan.link));
+}
+
 void World::destroy(JointId id) { removeJoint(impl_->data, slotOf(impl_->data, id, Path("World::destroy") / "id")); }
 
 JointType World::type(JointId id) const { return jointOf(impl_->data, id, "World::type").type; }
@@ -139,42 +137,8 @@ D6Joint World::d6Joint(JointId id) const {
   def.frameA = joint.frame[0], def.frameB = joint.frame[1];
   def.collideConnected = joint.collideConnected, def.userData = joint.userData;
   for (size_t i = 0; i < 6; ++i) def.axes[i] = d6.axis[innerAxis(d6, static_cast<JointAxis>(i))];
+  def.cone = d6.cone, def.slerp = d6.slerp;
   return def;
-}
-
-JointCoordinate World::coordinate(JointId id, JointAxis axis) const {
-  const uint32_t slot = d6SlotOf(impl_->data, id, "World::coordinate");
-  checkAxis(Path("World::coordinate") / "axis", axis);
-  const JointMotion motion = motionOf(impl_->data, slot);
-  const size_t i = innerAxis(impl_->data.d6[slot], axis);
-  return {motion.position[i], motion.velocity[i]};
-}
-
-JointCoordinate World::coordinate(JointId id) const {
-  return coordinate(id, freeAxisOf(impl_->data, id, "World::coordinate"));
-}
-
-void World::setLimit(JointId id, JointAxis axis, const JointLimit& limit) {
-  const Path path("World::setLimit");
-  D6Axis& to = freeAxis(impl_->data, id, axis, "World::setLimit");
-  const bool swing = static_cast<size_t>(axis) > 3 && impl_->data.d6[impl_->data.jointIds.slot(id)].turned == 0;
-  checkLimit(path / "limit", limit, swing, axis >= JointAxis::Twist, impl_->data.def.lengthUnit);
-  to.limit = limit;
-}
-
-void World::setLimit(JointId id, const JointLimit& limit) {
-  setLimit(id, freeAxisOf(impl_->data, id, "World::setLimit"), limit);
-}
-
-void World::setDrive(JointId id, JointAxis axis, const JointDrive& drive) {
-  const Path path("World::setDrive");
-  D6Axis& to = freeAxis(impl_->data, id, axis, "World::setDrive");
-  checkDrive(path / "drive", drive, axis >= JointAxis::Twist, impl_->data.def.lengthUnit);
-  to.drive = drive;
-}
-
-void World::setDrive(JointId id, const JointDrive& drive) {
-  setDrive(id, freeAxisOf(impl_->data, id, "World::setDrive"), drive);
 }
 
 TetVolume World::tetVolume(JointId id) const {
@@ -182,6 +146,81 @@ TetVolume World::tetVolume(JointId id) const {
   TetVolume def{.restVolume = joint.restVolume, .stiffness = joint.stiffness, .userData = joint.userData};
   for (size_t i = 0; i < 4; ++i) def.bodies[i] = bodyIdOf(impl_->data, joint.body[i]);
   return def;
+}
+
+DistanceJoint World::distanceJoint(JointId id) const {
+  const JointData& joint = jointOfType(impl_->data, id, JointType::Distance, "World::distanceJoint");
+  const LinkData& link = impl_->data.links[impl_->data.jointIds.slot(id)];
+  return {bodyIdOf(impl_->data, joint.body[0]),
+          bodyIdOf(impl_->data, joint.body[1]),
+          joint.frame[0],
+          joint.frame[1],
+          link.min,
+          link.max,
+          joint.stiffness,
+          link.damping,
+          joint.collideConnected,
+          joint.userData};
+}
+
+PulleyJoint World::pulleyJoint(JointId id) const {
+  const JointData& joint = jointOfType(impl_->data, id, JointType::Pulley, "World::pulleyJoint");
+  const LinkData& link = impl_->data.links[impl_->data.jointIds.slot(id)];
+  return {bodyIdOf(impl_->data, joint.body[0]),
+          bodyIdOf(impl_->data, joint.body[1]),
+          joint.frame[0],
+          joint.frame[1],
+          link.wheel[0],
+          link.wheel[1],
+          link.ratio,
+          link.max,
+          link.slack,
+          joint.collideConnected,
+          joint.userData};
+}
+
+Coupling World::coupling(JointId id) const {
+  const JointData& joint = jointOfType(impl_->data, id, JointType::Coupling, "World::coupling");
+  const LinkData& link = impl_->data.links[impl_->data.jointIds.slot(id)];
+  Coupling def;
+  for (const LinkTerm& term : link.terms)
+    def.terms.push_back({impl_->data.jointIds.id(term.joint), term.axis, term.factor[0], term.factor[1], term.factor[2],
+                         term.factor[3]});
+  def.rest = link.rest, def.axis = link.axis;
+  def.stiffness = joint.stiffness, def.damping = link.damping, def.userData = joint.userData;
+  return def;
+}
+
+CustomJoint World::customJoint(JointId id) const {
+  const JointData& joint = jointOfType(impl_->data, id, JointType::Custom, "World::customJoint");
+  const LinkData& link = impl_->data.links[impl_->data.jointIds.slot(id)];
+  CustomJoint def;
+  def.family = link.family, def.bodyCount = link.bodies;
+  for (size_t i = 0; i < static_cast<size_t>(link.bodies); ++i) def.bodies[i] = bodyIdOf(impl_->data, joint.body[i]);
+  def.constants = link.constants, def.memory = link.memory;
+  def.collideConnected = joint.collideConnected, def.userData = joint.userData;
+  return def;
+}
+
+std::vector<BodyId> World::bodies(JointId id) const {
+  std::vector<BodyId> ids;
+  forEachBody(impl_->data, slotOf(impl_->data, id, Path("World::bodies") / "id"), [&](uint32_t body) {
+    const BodyId named = bodyIdOf(impl_->data, body);
+    if (body != kNone && std::find(ids.begin(), ids.end(), named) == ids.end()) ids.push_back(named);
+  });
+  return ids;
+}
+
+std::array<Pose, 2> World::worldFrames(JointId id) const {
+  const JointData& joint = jointOf(impl_->data, id, "World::worldFrames");
+  if (!hasFrames(joint.type)) (Path("World::worldFrames") / "id").refuse(toText(id), "must name a joint with frames");
+  std::array<Pose, 2> frames;
+  for (int side = 0; side < 2; ++side) {
+    const Pose& local = joint.frame[side];
+    frames[static_cast<size_t>(side)] =
+        joint.body[side] == kNone ? local : bodyPose(impl_->data.bodies[joint.body[side]]) * local;
+  }
+  return frames;
 }
 
 JointReaction World::reaction(JointId id) const { return jointOf(impl_->data, id, "World::reaction").reaction; }

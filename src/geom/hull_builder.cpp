@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/assert.h"
@@ -257,7 +258,14 @@ std::shared_ptr<const HullData> makeHull(const HullDef& def) {
     for (uint32_t& v : t.vertex) v = chosen[vertices.set()[v]];
   }
   parts.error = grid.fromGrid(hull.errorOf(triangles));
-  return HullFactory::make(parts);
+  const std::shared_ptr<const HullData> made = HullFactory::make(parts);
+  // Whose volume no float can hold.
+  if (!(made->massProperties(1).mass >= std::numeric_limits<float>::min()))
+    refuse("points", toText(def.points.size()) + " points that span " + toText(extent),
+           "must enclose more than 1.2e-38");
+  if (!(made->innerRadius() > 0))
+    refuse("points", toText(def.points.size()) + " points in one plane", "must lie apart by more than their rounding");
+  return made;
 }
 
 std::vector<std::array<uint32_t, 3>> hullTriangles(std::span<const Vec3d> points) {

@@ -258,6 +258,13 @@ TEST(Hull, refusesByName) {
   bad[7].y = 2e6f;
   refuse({.points = bad}, "points[7]", "1e+06");
   refuse({.points = std::vector<Vec3>(9, {1, 2, 3})}, "points", "one point");
+  std::vector<Vec3> tiny = good;
+  for (Vec3& p : tiny) p = p * 1e-20f;
+  refuse({.points = tiny}, "points", "must enclose more");
+  // In one plane but for rounding, far from the origin.
+  const std::vector<Vec3> sliver{
+      {99.9990005f, -50, 25}, {100, -50.0029984f, 24.9969997f}, {100, -50.0009995f, 24.9990005f}, {100, -50, 25}};
+  refuse({.points = sliver}, "points", "more than their rounding");
   std::vector<Vec3> line, plane;
   for (int i = 0; i < 20; ++i) {
     line.push_back(Vec3{1, 2, 3} * (0.1f * i));

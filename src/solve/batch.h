@@ -64,6 +64,14 @@ struct ScalarJoints {
   uint32_t tiles = 0;
 };
 
+struct LinkedJoint;
+
+/// Joints over any number of bodies, one at a time (linked_joint.h).
+struct LinkedJoints {
+  LinkedJoint* joint = nullptr;
+  uint32_t count = 0;
+};
+
 /// One island within a batch.
 struct IslandRange {
   uint32_t begin = 0, end = 0;  ///< body rows
@@ -95,6 +103,7 @@ struct BatchView {
   PairTiles<rows::FullContact> full;
   TetTiles tets;
   ScalarJoints scalar;
+  LinkedJoints linked;
   Tile<PairOp>* op = nullptr;  ///< contacts, then balls, then fixed, then scalar joints
   Tile<ScaledOp>* fullOp = nullptr;
 

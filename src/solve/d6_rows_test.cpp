@@ -36,7 +36,7 @@ D6Joint<float> randomJoint(Random& random, float most) {
 }
 
 template <class R>
-using Probe = rows::ProbeSink<R, 24>;
+using Probe = rows::ProbeSink<R, 40>;
 
 template <class R>
 Twist<R> motionAt(const double* d) {

@@ -6,6 +6,7 @@
 // residual gives up what the joints carry (r -= J^T mu) so that it does not drown in rounding.
 #include "solve/krylov.h"
 
+#include "solve/linked_joint.h"
 #include "solve/locks.h"
 #include "solve/scalar_joint.h"
 
@@ -15,6 +16,9 @@ namespace {
 
 constexpr float kSettled = 3e-5f;           ///< relative change of a tree's pose that ends its outer iterations
 constexpr float kRelativeResidual = 1e-9f;  ///< of r . M^-1 r, squared norm: an island below it is solved
+
+/// All bodies stand in trees, which factor their own blocks.
+bool isForest(const BatchView& view, const Forest* forest) { return forest && forest->nodes.size() == view.bodies; }
 
 class Krylov {
  public:
@@ -28,8 +32,7 @@ class Krylov {
   void solve(int iterations) {
     begin();
     for (int i = 0; i < iterations && anyActive(); ++i) {
-      k_.multiply(v_);
-      clearLocked(v_, v_.q);
+      multiply();
       for (uint32_t n = 0; n < v_.islands; ++n) advance(n);
       if (i + 1 == iterations) break;
       precondition(false);
@@ -38,8 +41,14 @@ class Krylov {
   }
 
  private:
+  void multiply() {
+    k_.multiply(v_);
+    multiplyLinked(v_, s_.active.data());
+    clearLocked(v_, v_.q);
+  }
+
   void precondition(bool violated) {
-    k_.precondition(v_);
+    if (!isForest(v_, forest_)) k_.precondition(v_);
     if (forest_) forest_->solve(v_, s_.active.data(), violated);
   }
 
@@ -72,8 +81,7 @@ class Krylov {
       if (!island.coupled) s_.active[n] = 0;
     }
     if (!anyActive()) return;
-    k_.multiply(v_);
-    clearLocked(v_, v_.q);
+    multiply();
     for (uint32_t n = 0; n < v_.islands; ++n)
       if (v_.island[n].hasTree && s_.active[n]) k_.addScaled(v_.r, v_.q, -1, v_.island[n].begin, v_.island[n].end);
   }
@@ -138,6 +146,25 @@ void retireSettled(const BatchView& view, KrylovScratch& scratch) {
 
 }  // namespace
 
+namespace {
+
+/// Rows see turns through the arms of a pose on the way: beyond about a radian a solution of theirs is none of the
+/// bodies', and a light body struck hard would be spun full turns through it. What turns a body farther in one
+/// iteration is shortened, its translation with it, since most of that is the turn's.
+constexpr float kMostTurn = 1;  ///< [rad] an iteration
+
+void boundTurns(const BatchView& view) {
+  for (uint32_t i = 0; i < view.bodies; ++i) {
+    float* x = view.x + 8 * i;
+    const float turn = x[4] * x[4] + x[5] * x[5] + x[6] * x[6];
+    if (!(turn > kMostTurn * kMostTurn)) continue;
+    const float share = kMostTurn / rows::sqrt(turn);
+    for (int k = 0; k < 8; ++k) x[k] *= share;
+  }
+}
+
+}  // namespace
+
 void solveKrylov(const BatchView& view, const Backend& backend, const SolveSettings& settings, Forest* forest,
                  KrylovScratch& scratch) {
   scratch.unsolved.assign(view.islands, 1);
@@ -145,11 +172,13 @@ void solveKrylov(const BatchView& view, const Backend& backend, const SolveSetti
     backend.beginIteration(view);
     backend.stampRows(view, settings, i > 0);
     stampScalar(view, settings.jointLeak, i > 0, scratch.unsolved.data());
+    stampLinked(view, settings.jointLeak, i > 0, scratch.unsolved.data());
     if (forest) forest->stamp(view, scratch.unsolved.data());
     if (view.lockedCount) applyLocks(view);
-    backend.factor(view);
+    if (!isForest(view, forest)) backend.factor(view);
     if (forest) forest->factor(view, scratch.unsolved.data());
     Krylov(view, backend, forest, scratch).solve(settings.krylovIterations);
+    boundTurns(view);
     backend.addScaled(view.d, view.x, 1, 0, view.bodies);
     if (!forest) continue;
     forest->updateMultipliers(scratch.unsolved.data());

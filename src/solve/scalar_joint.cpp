@@ -11,6 +11,11 @@ namespace {
 using rows::PairRow;
 using rows::Twist;
 
+/// Of the stiffness of a row that no tree solves, by which an exact one-sided row weighs its violation against its
+/// multiplier: about the mass that it feels over h^2. By more, what Newton's step leaves of a curved C would release
+/// rows that push.
+constexpr float kActiveShare = 1e-3f;
+
 void stampLoop(const BatchView& view, const ScalarJoint& joint, const ScalarRows& list, const ScalarStamp& stamp) {
   const Twist<float> onA = shiftWrench(stamp.wrench, list.armA), onB = shiftWrench(stamp.wrench, list.armB);
   addTwist(view.gradient, joint.rowA, onA);
@@ -25,21 +30,42 @@ void stampLoop(const BatchView& view, const ScalarJoint& joint, const ScalarRows
 
 ScalarRows rowsOf(ScalarJoint& joint, const BatchView& view) {
   ScalarRows list;
-  joint.rows.rows(joint.axes, readTwist(view.d, joint.rowA), readTwist(view.d, joint.rowB), list);
+  const Twist<float> dA = readTwist(view.d, joint.rowA), dB = readTwist(view.d, joint.rowB);
+  if (joint.kind == ScalarJoint::Kind::Distance)
+    joint.distance.rows(dA, dB, list);
+  else
+    joint.rows.rows(joint.axes, dA, dB, list);
   return list;
 }
 
+namespace {
+
+bool isOneSided(const PairRow<float>& row) {
+  return (row.lower == 0 && row.upper == rows::kInfinity) || (row.upper == 0 && row.lower == -rows::kInfinity);
+}
+
+}  // namespace
+
 RowForce forceOf(const PairRow<float>& row, float lambda, bool inTree) {
   const float trial = row.s * lambda + row.k * row.C;
+  if (row.s == 1 && isOneSided(row)) {
+    const float decides = lambda + kActiveShare * row.k * row.C;
+    if (row.lower == 0 ? decides <= 0 : decides >= 0) return {};
+    return inTree ? RowForce{RowKind::Exact, lambda, 0} : RowForce{RowKind::Elastic, trial, row.k};
+  }
   const bool below = trial <= row.lower, above = trial >= row.upper;
   if (below || above) {
     const float bound = below ? row.lower : row.upper;
     if (bound == 0) return {};
-    return {RowKind::Elastic, bound, row.k * (bound / trial)};
+    return {RowKind::Elastic, bound, row.k > 0 ? row.k * (bound / trial) : 0};
   }
   const bool bounded = row.lower > -rows::kInfinity && row.upper < rows::kInfinity;
   if (inTree && row.s == 1 && !bounded) return {RowKind::Exact, lambda, 0};
   return {RowKind::Elastic, trial, row.k};
+}
+
+float multiplierOf(const PairRow<float>& row, float lambda, bool inTree) {
+  return rows::clamp(forceOf(row, lambda, inTree).force, row.lower, row.upper);
 }
 
 ScalarStamp stampOf(const ScalarJoint& joint, const ScalarRows& list) {
@@ -57,7 +83,7 @@ ScalarStamp stampOf(const ScalarJoint& joint, const ScalarRows& list) {
 void moveMultipliers(ScalarJoint& joint, const BatchView& view, float leak) {
   const ScalarRows list = rowsOf(joint, view);
   for (int i = 0; i < list.count; ++i) {
-    const float force = forceOf(list.row[i], *list.lambda[i], joint.inTree).force;
+    const float force = multiplierOf(list.row[i], *list.lambda[i], joint.inTree);
     *list.lambda[i] = list.row[i].s == 1 && !joint.inTree ? leak * force : force;
   }
 }

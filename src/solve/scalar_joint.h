@@ -5,22 +5,27 @@
 // - elastic: force k C + s lambda within its bounds, with k in the Hessian: springs, drives, friction that sticks, and
 //   in loops all hard rows too.
 //   At a bound the Hessian is a majoriser, as in contacts: k times the share of the trial force that the bound allows.
-// - none: one-sided rows that do not push.
+// - none: one-sided rows that do not push. A given force is elastic with k = 0.
 #pragma once
 
 #include <vector>
 
 #include "avbd/rows/d6_joint.h"
+#include "avbd/rows/distance.h"
 #include "avbd/rows/sinks.h"
 #include "solve/batch.h"
 
 namespace avbd {
 
-inline constexpr int kScalarRows = 24;  ///< most that a D6 joint can emit: limits, drive and friction of six axes
+/// Most rows that a joint can emit: of six axes six each, and a cone (a turn to a rotation replaces three drives).
+inline constexpr int kScalarRows = 37;
 
 struct ScalarJoint {
-  rows::D6Joint<float> rows;
+  enum class Kind : uint8_t { D6, Distance };
+  rows::D6Joint<float> rows;  ///< D6
+  rows::Distance<float> distance;
   rows::D6Axes axes;
+  Kind kind = Kind::D6;
   uint32_t rowA = 0, rowB = 0;  ///< body rows; the static row for the world
   uint32_t slot = 0;            ///< of the world's joint
   uint32_t island = 0;          ///< of the batch
@@ -39,6 +44,8 @@ struct RowForce {
   float k = 0;      ///< in the Hessian, of elastic rows
 };
 RowForce forceOf(const rows::PairRow<float>& row, float lambda, bool inTree);
+/// The force as the multiplier that comes next: within the row's bounds.
+float multiplierOf(const rows::PairRow<float>& row, float lambda, bool inTree);
 
 /// What a joint's rows add up to about their reference point: the wrench on A, and the stiffness of elastic rows.
 struct ScalarStamp {

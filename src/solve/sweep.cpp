@@ -1,8 +1,11 @@
 // Block Gauss-Seidel: the order of things.
 #include "solve/sweep.h"
 
+#include <algorithm>
+
 #include "solve/body_rows.h"
 #include "solve/geometric.h"
+#include "solve/linked_joint.h"
 #include "solve/locks.h"
 #include "solve/scalar_joint.h"
 
@@ -29,6 +32,29 @@ void stampScalarSides(const BatchView& view, ScalarJoint& joint, const Colors& c
   if (b) add(joint.rowB, list.armB, -stamp.wrench);
 }
 
+/// The same of a joint over any number of bodies.
+void stampLinkedSides(const BatchView& view, LinkedJoint& joint, const Colors& colors, uint32_t color,
+                      const SweepPlan& plan) {
+  const auto moves = [&](uint32_t row) { return row < view.bodies && colors.of[row] == color; };
+  if (std::none_of(joint.row, joint.row + joint.bodies, moves)) return;
+  evaluate(joint, view, joint.stamped);
+  for (int i = 0; i < joint.stamped.count; ++i) {
+    const LinkedRow& row = joint.stamped.row[i];
+    const RowForce force = forceOf({row.C, {}, {}, row.k, row.s, row.lower, row.upper}, *row.lambda, false);
+    // A body may stand in a coupling more than once: its J is the sum.
+    for (int b = 0; b < joint.bodies; ++b) {
+      if (!moves(joint.row[b]) || std::find(joint.row, joint.row + b, joint.row[b]) != joint.row + b) continue;
+      rows::Twist<float> j = row.j[b];
+      for (int other = b + 1; other < joint.bodies; ++other)
+        if (joint.row[other] == joint.row[b]) j += row.j[other];
+      rows::Sym6<float> block = rows::zeroSym6<float>();
+      addOuter(block, force.k, j);
+      addTwist(view.gradient, plan.placeOf(joint.row[b]), j * force.force);
+      addBlock(view.hessian, plan.placeOf(joint.row[b]), block);
+    }
+  }
+}
+
 }  // namespace
 
 void solveSweep(const BatchView& view, const Backend& backend, const SolveSettings& settings, const Colors& colors,
@@ -39,12 +65,15 @@ void solveSweep(const BatchView& view, const Backend& backend, const SolveSettin
     backend.stageRecords(view, sweep, settings, i > 0);
     // Always in the same order. To and fro, the last colour would be the next iteration's first, where little has moved
     // since: with the few colours of a pile that wastes a good part of the work (docs/performance.md).
-    if (i > 0)
+    if (i > 0) {
       for (uint32_t n = 0; n < view.scalar.count; ++n) moveMultipliers(view.scalar.joint[n], view, settings.jointLeak);
+      for (uint32_t n = 0; n < view.linked.count; ++n) moveMultipliers(view.linked.joint[n], view, settings.jointLeak);
+    }
     for (uint32_t c = 0; c < plan.colors().size(); ++c) {
       const SweepColor& color = plan.colors()[c];
       backend.stampColor(view, sweep, color);
       for (uint32_t n = 0; n < view.scalar.count; ++n) stampScalarSides(view, view.scalar.joint[n], colors, c, plan);
+      for (uint32_t n = 0; n < view.linked.count; ++n) stampLinkedSides(view, view.linked.joint[n], colors, c, plan);
       if (color.lockedCount) applyLocks(plan.lockedIn(view, color));
       backend.solveColor(view, sweep, color);
     }

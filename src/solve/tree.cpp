@@ -2,6 +2,7 @@
 #include "solve/tree.h"
 
 #include "avbd/rows/sinks.h"
+#include "base/assert.h"
 #include "solve/body_rows.h"
 #include "solve/geometric.h"
 #include "solve/scalar_joint.h"
@@ -96,27 +97,46 @@ void stampJoint(const BatchView& v, TreeJoint& joint) {
   addJointForce(v, joint, wrench, probe.armA, probe.armB);
 }
 
+bool sameAxis(const rows::PairRow<float>& a, const rows::PairRow<float>& b) {
+  return a.lin.x == b.lin.x && a.lin.y == b.lin.y && a.lin.z == b.lin.z && a.ang.x == b.ang.x && a.ang.y == b.ang.y &&
+         a.ang.z == b.ang.z;
+}
+
+/// Adds a row to those that a scalar joint has in this iteration.
+void addMixed(const TreeJoint& joint, MixedRows& mixed, const ScalarRows& list, int i, const RowForce& force) {
+  const bool exact = force.kind == RowKind::Exact;
+  const int at = mixed.m++;
+  AVBD_ASSERT(mixed.m <= kMixedRows);
+  mixed.violation[at] = exact ? list.row[i].C : 0;
+  mixed.compliance[at] = exact ? 0 : 1 / force.k;
+  mixed.lambda[at] = exact ? list.lambda[i] : nullptr;
+  mixed.total[at] = 0;
+  fillJacobian(joint.childIsA ? mixed.jc[at] : mixed.jp[at], list.row[i], list.armA, 1);
+  fillJacobian(joint.childIsA ? mixed.jp[at] : mixed.jc[at], list.row[i], list.armB, -1);
+}
+
 /// The rows that a scalar joint has in this iteration.
 void stampMixed(const BatchView& v, const TreeJoint& joint, MixedRows& mixed) {
-  ScalarJoint& scalar = v.scalar.joint[mixed.scalar];
-  const ScalarRows list = rowsOf(scalar, v);
+  const ScalarRows list = rowsOf(v.scalar.joint[mixed.scalar], v);
   Twist<float> wrench{};
   mixed.m = 0;
+  int elastic = -1;  // row of `list` that stands for the elastic ones of its axis
+  float k = 0;       // of them together
+  const auto endAxis = [&] {
+    if (k > 0) addMixed(joint, mixed, list, elastic, {RowKind::Elastic, 0, k});
+    k = 0;
+  };
   for (int i = 0; i < list.count; ++i) {
     const rows::PairRow<float>& row = list.row[i];
     const RowForce force = forceOf(row, *list.lambda[i], true);
     wrench.lin += row.lin * force.force;
     wrench.ang += row.ang * force.force;
-    if (force.kind == RowKind::None) continue;
-    const bool exact = force.kind == RowKind::Exact;
-    const int at = mixed.m++;
-    mixed.violation[at] = exact ? row.C : 0;
-    mixed.compliance[at] = exact ? 0 : 1 / force.k;
-    mixed.lambda[at] = exact ? list.lambda[i] : nullptr;
-    mixed.total[at] = 0;
-    fillJacobian(joint.childIsA ? mixed.jc[at] : mixed.jp[at], row, list.armA, 1);
-    fillJacobian(joint.childIsA ? mixed.jp[at] : mixed.jc[at], row, list.armB, -1);
+    if (force.kind == RowKind::Exact) addMixed(joint, mixed, list, i, force);
+    if (force.kind != RowKind::Elastic || force.k <= 0) continue;
+    if (k > 0 && !sameAxis(list.row[elastic], row)) endAxis();
+    elastic = i, k += force.k;
   }
+  endAxis();
   addJointForce(v, joint, wrench, list.armA, list.armB);
 }
 
@@ -281,7 +301,8 @@ void Forest::up(const BatchView& view, const uint8_t* active) {
 
 void Forest::takeFromResidual(const BatchView& view, const uint8_t* active) {
   for (const TreeNode& node : nodes) {
-    if (node.joint < 0 || !active[node.island]) continue;
+    // Where nothing else couples the island, nobody reads its residual again.
+    if (node.joint < 0 || !active[node.island] || !view.island[node.island].coupled) continue;
     float* child = view.r + 8 * node.row;
     float* parent = node.parent >= 0 ? view.r + 8 * nodes[static_cast<size_t>(node.parent)].row : nullptr;
     withRows(*this, joints[static_cast<size_t>(node.joint)], [&]<int>(auto& rows) {

@@ -38,12 +38,16 @@ struct TreeJoint : TreeRows<6> {
   rows::FixedJoint<float> rows;
 };
 
+/// Most rows that a scalar joint has in a tree: an exact and an elastic one along each of six axes, and of the whole
+/// joint the cone and a turn to a rotation.
+inline constexpr int kMixedRows = 16;
+
 /// A scalar joint in a tree: exact rows, and elastic ones, which enter as multipliers too: S gets 1/k on its diagonal,
-/// so that a stiff spring costs no digits.
-struct MixedRows : TreeRows<kScalarRows> {
-  uint32_t scalar = 0;            ///< in BatchView::scalar
-  float* lambda[kScalarRows];     ///< of exact rows; null of elastic ones
-  float compliance[kScalarRows];  ///< 1/k of elastic rows; 0 of exact ones
+/// so that a stiff spring costs no digits. Elastic rows along one axis are one.
+struct MixedRows : TreeRows<kMixedRows> {
+  uint32_t scalar = 0;           ///< in BatchView::scalar
+  float* lambda[kMixedRows];     ///< of exact rows; null of elastic ones
+  float compliance[kMixedRows];  ///< 1/k of elastic rows; 0 of exact ones
 };
 
 struct TreeNode {

@@ -37,7 +37,7 @@ void build(TestBatch& batch, const TreeCase& c, Random& random) {
                            : c.support == Support::Static ? batch.staticRow()
                                                           : batch.kinematicRow(0);
   plantTree(batch, row, support, random);
-  batch.islands = {{0, c.bodies, true, false, c.support == Support::Free}};
+  batch.islands = {{0, c.bodies, true, true, c.support == Support::Free}};
   if (!c.lock) return;
   for (const TreeNode& node : batch.forest.nodes) {
     const bool root = node.joint < 0;
@@ -164,6 +164,7 @@ TEST(Forest, TreesAreIndependent) {
     for (uint32_t i = 4; i < 9; ++i) both.fillBody(i, random, 1);
     plantTree(one, {0, 1, 2, 3}, one.staticRow(), random);
     plantTree(both, {4, 5, 6, 7, 8}, kFree, random);
+    one.islands = {{0, 4, true, true, false}}, both.islands = {{0, 4, true, true, false}, {4, 9, true, true, true}};
     // The same tree again, behind the other.
     const int32_t nodes = static_cast<int32_t>(both.forest.nodes.size());
     const int32_t joints = static_cast<int32_t>(both.forest.joints.size());

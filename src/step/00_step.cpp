@@ -1,11 +1,13 @@
 // The whole frame on one page.
 #include <chrono>
 
+#include "step/break_joints.h"
 #include "step/contacts.h"
 #include "step/publish_events.h"
 #include "step/settings.h"
 #include "step/step.h"
 #include "step/step_data.h"
+#include "world/joints.h"
 
 namespace avbd {
 
@@ -42,10 +44,14 @@ void substep(WorldData& world, StepData& step) {
 
 void forgetForces(WorldData& world) {
   world.bodyIds.forEach([&](uint32_t slot) { world.bodies[slot].force = world.bodies[slot].torque = {}; });
+  clearJointForces(world);
 }
 
 void restore(WorldData& world, StepData& step) {
-  if (step.substep > 0) world.bodies = step.bodiesBefore;
+  if (step.substep > 0) {
+    world.bodies = step.bodiesBefore;
+    world.joints = step.jointsBefore, world.d6 = step.d6Before, world.links = step.linksBefore;
+  }
   if (step.pairsKept)
     restorePairs(world, step);
   else
@@ -57,7 +63,10 @@ void restore(WorldData& world, StepData& step) {
 void Stepper::step(WorldData& world, float dt) {
   StepData& step = *data_;
   world.report.seconds = {};
-  if (world.def.substeps > 1) step.bodiesBefore = world.bodies;
+  if (world.def.substeps > 1) {
+    step.bodiesBefore = world.bodies;
+    step.jointsBefore = world.joints, step.d6Before = world.d6, step.linksBefore = world.links;
+  }
   chooseSettings(world, step, dt / static_cast<float>(world.def.substeps));
   beginEvents(world, step);
   step.pairsKept = false;
@@ -70,6 +79,7 @@ void Stepper::step(WorldData& world, float dt) {
     }
   }
   forgetForces(world);
+  if (world.breakable > 0) breakJoints(world);
   world.time += dt;
   ++world.report.step;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "step/step_data.h"
+#include "world/joints.h"
 
 namespace avbd {
 
@@ -31,13 +32,13 @@ void joinBodies(const WorldData& world, StepData& step) {
     if (pair.pointCount > 0 && isDynamic(world, pair.bodyA) && isDynamic(world, pair.bodyB))
       join(step.parent, pair.bodyA, pair.bodyB);
   world.jointIds.forEach([&](uint32_t slot) {
-    const JointData& joint = world.joints[slot];
+    if (!acts(world, slot)) return;
     uint32_t first = kNone;
-    for (const uint32_t body : joint.body) {
-      if (!isDynamic(world, body)) continue;
+    forEachBody(world, slot, [&](uint32_t body) {
+      if (!isDynamic(world, body)) return;
       if (first != kNone) join(step.parent, first, body);
       first = body;
-    }
+    });
   });
 }
 
@@ -78,10 +79,12 @@ void listBodies(const WorldData& world, StepData& step) {
   });
 }
 
-uint32_t islandOfJoint(const StepData& step, const JointData& joint) {
-  for (const uint32_t body : joint.body)
-    if (body != kNone && step.islandOf[body] != kNone) return step.islandOf[body];
-  return kNone;
+uint32_t islandOfJoint(const WorldData& world, const StepData& step, uint32_t slot) {
+  uint32_t island = kNone;
+  forEachBody(world, slot, [&](uint32_t body) {
+    if (island == kNone && body != kNone) island = step.islandOf[body];
+  });
+  return island;
 }
 
 void listPairs(const WorldData& world, StepData& step) {
@@ -104,16 +107,20 @@ void listPairs(const WorldData& world, StepData& step) {
 
 void listJoints(const WorldData& world, StepData& step) {
   world.jointIds.forEach([&](uint32_t slot) {
-    const JointData& joint = world.joints[slot];
-    Island& island = step.islands[islandOfJoint(step, joint)];
+    if (!acts(world, slot)) return;
+    Island& island = step.islands[islandOfJoint(world, step, slot)];
     ++island.jointCount;
-    const int bodies = joint.type == JointType::TetVolume ? 4 : 2;
-    for (int i = 0; i < bodies; ++i)
-      if (!isDynamic(world, joint.body[i])) island.floating = false;
+    forEachBody(world, slot, [&](uint32_t body) {
+      if (!isDynamic(world, body)) island.floating = false;
+    });
+    // Its wheels stand in the world; what a user's rows do to momentum only the user knows.
+    const JointType type = world.joints[slot].type;
+    if (type == JointType::Pulley || type == JointType::Custom) island.floating = false;
   });
   step.islandJoints.resize(layOut(step.islands, &Island::jointBegin, &Island::jointCount));
   world.jointIds.forEach([&](uint32_t slot) {
-    Island& island = step.islands[islandOfJoint(step, world.joints[slot])];
+    if (!acts(world, slot)) return;
+    Island& island = step.islands[islandOfJoint(world, step, slot)];
     step.islandJoints[island.jointBegin + island.jointCount++] = slot;
   });
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "step/step_data.h"
+#include "world/joints.h"
 
 namespace avbd {
 
@@ -23,8 +24,15 @@ void findLinks(const WorldData& world, const StepData& step, Coloring& c) {
     const uint32_t body[2] = {world.pairs[index].bodyA, world.pairs[index].bodyB};
     link(world, c, body, 2);
   }
-  for (const uint32_t slot : step.islandJoints)
-    link(world, c, world.joints[slot].body, world.joints[slot].type == JointType::TetVolume ? 4 : 2);
+  for (const uint32_t slot : step.islandJoints) {
+    uint32_t bodies[kLinkBodies];
+    int count = 0;
+    // A body that stands in a coupling twice is no neighbour of itself.
+    forEachBody(world, slot, [&](uint32_t body) {
+      if (std::find(bodies, bodies + count, body) == bodies + count) bodies[count++] = body;
+    });
+    link(world, c, bodies, count);
+  }
 }
 
 void listNeighbours(size_t slots, Coloring& c) {

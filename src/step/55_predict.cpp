@@ -6,6 +6,7 @@
 // of sliding the majorised friction rows give way only slowly.
 #include "step/begin_rows.h"
 #include "step/free_motion.h"
+#include "world/joints.h"
 
 namespace avbd {
 
@@ -37,10 +38,10 @@ void sumCarried(const WorldData& world, StepData& step) {
   }
   for (const uint32_t slot : step.islandJoints) {
     const JointData& joint = world.joints[slot];
-    const int bodies = joint.type == JointType::TetVolume ? 4 : 2;
-    for (int i = 0; i < bodies; ++i)
-      if (joint.body[i] != kNone) step.slidesOnly[joint.body[i]] = 0;
-    if (joint.type == JointType::TetVolume) continue;
+    forEachBody(world, slot, [&](uint32_t body) {
+      if (body != kNone) step.slidesOnly[body] = 0;
+    });
+    if (!hasFrames(joint.type) || joint.type == JointType::Pulley) continue;
     const Vec3 force{joint.lambda[0], joint.lambda[1], joint.lambda[2]};
     if (joint.body[0] != kNone) step.carried[joint.body[0]] = step.carried[joint.body[0]] - force;
     if (joint.body[1] != kNone) step.carried[joint.body[1]] = step.carried[joint.body[1]] + force;

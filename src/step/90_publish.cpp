@@ -1,9 +1,12 @@
 // Publication: poses, velocities, multipliers and reactions go back to the world.
 #include <algorithm>
+#include <array>
 
 #include "solve/body_rows.h"
 #include "step/begin_rows.h"
+#include "step/check_forces.h"
 #include "step/contacts.h"
+#include "step/coordinate_rows.h"
 #include "step/free_motion.h"
 #include "step/publish_events.h"
 
@@ -139,32 +142,84 @@ void publishJoint(JointData& joint, const rows::BallJoint<float>& ball, rows::V3
   joint.reaction = {fromRow(-ball.lambda), fromRow(-torque)};
 }
 
-/// Multipliers of each coordinate, the twist with its full turns, and the whole force at frame A's origin.
+void publishCoordinates(D6Data& d6, const BatchView& view, const ScalarJoint& scalar) {
+  float q[6];
+  scalar.rows.coordinates(readTwist(view.d, scalar.rowA), readTwist(view.d, scalar.rowB), q);
+  d6.twist = q[3], d6.twistKnown = true;
+  for (int i = 0; i < 6; ++i) d6.lambda[i] = multipliersOf(scalar.rows.axis[i]);
+  d6.coneLambda = scalar.rows.cone.lambda;
+  d6.slerpLambda = fromRow(scalar.rows.slerp.lambda);
+}
+
+/// The whole force at frame A's origin, and multipliers; of a D6 joint those of each coordinate and the twist with its
+/// full turns.
 void publishScalarJoint(WorldData& world, const BatchView& view, ScalarJoint& scalar) {
   JointData& joint = world.joints[scalar.slot];
-  D6Data& d6 = world.d6[scalar.slot];
   const ScalarRows list = rowsOf(scalar, view);
   rows::Twist<float> wrench = rows::zeroTwist<float>();
   for (int i = 0; i < list.count; ++i) {
     wrench.lin += list.row[i].lin * *list.lambda[i];
     wrench.ang += list.row[i].ang * *list.lambda[i];
   }
-  const rows::V3<float> torque = wrench.ang + cross(list.armA - scalar.rows.armA, wrench.lin);
+  const bool distance = scalar.kind == ScalarJoint::Kind::Distance;
+  const rows::V3<float> anchor = distance ? scalar.distance.armA : scalar.rows.armA;
+  // A distance joint's force goes through both points.
+  const rows::V3<float> torque = distance ? rows::zeroV3<float>() : wrench.ang + cross(list.armA - anchor, wrench.lin);
   const float lambda[6] = {wrench.lin.x, wrench.lin.y, wrench.lin.z, torque.x, torque.y, torque.z};
   for (int i = 0; i < 6; ++i) joint.lambda[i] = lambda[i];
   joint.reaction = {fromRow(-wrench.lin), fromRow(-torque)};
-  float q[6];
-  scalar.rows.coordinates(readTwist(view.d, scalar.rowA), readTwist(view.d, scalar.rowB), q);
-  d6.twist = q[3], d6.twistKnown = true;
-  for (int i = 0; i < 6; ++i) {
-    const rows::D6Axis<float>& x = scalar.rows.axis[i];
-    d6.lambda[i] = {x.lambda, x.lambdaLower, x.lambdaUpper, x.lambdaDrive, x.lambdaFriction};
+  if (distance) {
+    world.links[scalar.slot].lambda.lower = scalar.distance.lambdaLower;
+    world.links[scalar.slot].lambda.upper = scalar.distance.lambdaUpper;
+    world.links[scalar.slot].lambda.lock = 0;
+    return;
   }
+  publishCoordinates(world.d6[scalar.slot], view, scalar);
 }
 
 void publishScalarJoints(WorldData& world, StepData& step, uint32_t batch) {
   const BatchView view = step.view(batch);
   for (uint32_t i = 0; i < view.scalar.count; ++i) publishScalarJoint(world, view, view.scalar.joint[i]);
+}
+
+/// Force and torque on the first body: of a pulley at its point.
+JointReaction reactionOf(const LinkedJoint& linked, const LinkedRows& list) {
+  rows::Twist<float> sum = rows::zeroTwist<float>();
+  for (int i = 0; i < list.count; ++i) sum += linked.stamped.row[i].j[0] * *list.row[i].lambda;
+  if (linked.kind == LinkedJoint::Kind::Pulley) sum.ang = rows::zeroV3<float>();
+  return {fromRow(-sum.lin), fromRow(-sum.ang)};
+}
+
+void publishLinked(WorldData& world, const BatchView& view, LinkedJoint& linked) {
+  JointData& joint = world.joints[linked.slot];
+  LinkData& link = world.links[linked.slot];
+  evaluate(linked, view, linked.stamped);
+  if (linked.kind == LinkedJoint::Kind::Coupling) {
+    float force = 0;
+    for (int i = 0; i < linked.stamped.count; ++i) {
+      const LinkedRow& row = linked.stamped.row[i];
+      force += row.k > 0 ? *row.lambda : row.lower;  // a given force is its own bound
+    }
+    link.lambda = multipliersOf(linked.coupling.axis);
+    joint.reaction = {{}, {-force, 0, 0}};
+    return;
+  }
+  joint.reaction = reactionOf(linked, linked.stamped);
+  if (linked.kind == LinkedJoint::Kind::Pulley) {
+    joint.lambda[0] = linked.pulley.lambda;
+    return;
+  }
+  CustomRows& custom = linked.custom;
+  for (int i = 0; i < custom.rows; ++i) joint.lambda[i] = custom.lambda[i];
+  std::array<CustomBody, 4> now;
+  for (int i = 0; i < custom.bodies; ++i)
+    now[static_cast<size_t>(i)] = customBody(custom, i, readTwist(view.d, linked.row[i]));
+  custom.family->remember({now.data(), static_cast<size_t>(custom.bodies)}, link.constants, link.memory);
+}
+
+void publishLinkedJoints(WorldData& world, StepData& step, uint32_t batch) {
+  const BatchView view = step.view(batch);
+  for (uint32_t i = 0; i < view.linked.count; ++i) publishLinked(world, view, view.linked.joint[i]);
 }
 
 void publishJoints(WorldData& world, StepData& step) {
@@ -181,7 +236,10 @@ void publishJoints(WorldData& world, StepData& step) {
     for (const TreeJoint& joint : step.forests[i].joints)
       if (joint.mixed < 0)
         publishJoint(world.joints[joint.slot], joint.rows.ball, joint.angular ? joint.rows.lambda : none);
-  for (uint32_t i = 0; i < step.batches.size(); ++i) publishScalarJoints(world, step, i);
+  for (uint32_t i = 0; i < step.batches.size(); ++i) {
+    publishScalarJoints(world, step, i);
+    publishLinkedJoints(world, step, i);
+  }
   for (size_t lane = 0; lane < step.tetJoint.size(); ++lane) {
     if (step.tetJoint[lane] == kNone) continue;
     JointData& joint = world.joints[step.tetJoint[lane]];
@@ -195,6 +253,7 @@ void publishJoints(WorldData& world, StepData& step) {
 }  // namespace
 
 void publish(WorldData& world, StepData& step) {
+  checkForces(world, step);
   world.treeBehind = true;
   publishContacts(world, step);
   publishBodies(world, step);

@@ -21,7 +21,7 @@ void clearLanes(StepData& step) {
     for (int side = 0; side < 2; ++side) lanes[side].clear();
   for (auto& lanes : step.tetRow) lanes.clear();
   step.contactPair.clear(), step.ballJoint.clear(), step.fixedJoint.clear(), step.tetJoint.clear();
-  step.fullPair.clear(), step.scalar.clear();
+  step.fullPair.clear(), step.scalar.clear(), step.linked.clear();
   step.batches.clear(), step.ranges.clear(), step.lockedRows.clear(), step.locks.clear();
   step.forestCount = 0;
 }
@@ -75,7 +75,9 @@ void addJoints(const WorldData& world, StepData& step, BatchRange& batch) {
   batch.fixedTile = static_cast<uint32_t>(step.fixedJoint.size()) / kTile;
   batch.tetTile = static_cast<uint32_t>(step.tetJoint.size()) / kTile;
   batch.scalarTile = static_cast<uint32_t>(step.scalar.size()) / kTile;
+  batch.linkedBegin = static_cast<uint32_t>(step.linked.size());
   plantForest(world, step, batch);
+  batch.linkedCount = static_cast<uint32_t>(step.linked.size()) - batch.linkedBegin;
   batch.scalarCount = static_cast<uint32_t>(step.scalar.size()) - batch.scalarTile * kTile;
   step.scalar.resize(roundUp(static_cast<uint32_t>(step.scalar.size())));
   padLanes(step.ballJoint, kNone), padLanes(step.fixedJoint, kNone), padLanes(step.tetJoint, kNone);
@@ -174,6 +176,7 @@ BatchView StepData::view(size_t index) {
   const size_t lane = size_t(b.scalarTile) * kTile;
   v.scalar = {scalar.data() + lane, b.scalarCount, scalarRow[0].data() + lane, scalarRow[1].data() + lane,
               b.scalarTiles};
+  v.linked = {linked.data() + b.linkedBegin, b.linkedCount};
   v.full = {full.data() + b.fullTile, fullRow[0].data() + b.fullTile * kTile, fullRow[1].data() + b.fullTile * kTile,
             b.fullTiles};
   v.fullOp = fullOp.data() + b.fullTile;

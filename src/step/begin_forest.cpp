@@ -101,10 +101,12 @@ void addToTiles(StepData& step, BatchRange& batch, const TreeJoint& joint) {
 }
 
 /// A joint whose rows are evaluated one at a time.
-void addScalar(StepData& step, BatchRange& batch, TreeJoint& joint, bool tree) {
+void addScalar(const WorldData& world, StepData& step, BatchRange& batch, TreeJoint& joint, bool tree) {
   ScalarJoint scalar;
   scalar.rowA = joint.rowA, scalar.rowB = joint.rowB;
   scalar.slot = joint.slot, scalar.island = joint.island, scalar.inTree = tree;
+  if (world.joints[joint.slot].type == JointType::Distance) scalar.kind = ScalarJoint::Kind::Distance;
+  step.scalarOf[joint.slot] = static_cast<uint32_t>(step.scalar.size()) - batch.scalarTile * kTile;
   if (tree) {
     Forest& forest = forestOf(step, batch);
     joint.mixed = static_cast<int32_t>(forest.mixed.size());
@@ -115,6 +117,24 @@ void addScalar(StepData& step, BatchRange& batch, TreeJoint& joint, bool tree) {
   }
   step.scalarRow[0].push_back(joint.rowA), step.scalarRow[1].push_back(joint.rowB);
   step.scalar.push_back(scalar);
+}
+
+bool isLinked(JointType type) {
+  return type == JointType::Pulley || type == JointType::Coupling || type == JointType::Custom;
+}
+
+/// A joint over any number of bodies.
+void addLinked(const WorldData& world, StepData& step, BatchRange& batch, uint32_t slot, uint32_t island) {
+  LinkedJoint& joint = step.linked.emplace_back();
+  const JointType type = world.joints[slot].type;
+  joint.kind = type == JointType::Pulley     ? LinkedJoint::Kind::Pulley
+               : type == JointType::Coupling ? LinkedJoint::Kind::Coupling
+                                             : LinkedJoint::Kind::Custom;
+  joint.slot = slot, joint.island = island;
+  forEachBody(world, slot, [&](uint32_t body) { joint.row[joint.bodies++] = rowInBatch(world, step, batch, body); });
+  for (const LinkTerm& term : world.links[slot].terms)
+    joint.coupling.term[joint.coupling.terms++].scalar = step.scalarOf[term.joint];
+  step.ranges[batch.islandBegin + island].coupled = true;
 }
 
 bool hasLocks(const WorldData& world, uint32_t body) { return body != kNone && world.bodies[body].locks != 0; }
@@ -132,8 +152,8 @@ void placeJoint(const WorldData& world, StepData& step, BatchRange& batch, uint3
   const bool locked = hasLocks(world, data.body[0]) || hasLocks(world, data.body[1]);
   const bool tree = world.def.primalSolver == PrimalSolver::Krylov && !locked &&
                     join(step.planting.set, element(joint.rowA), element(joint.rowB));
-  if (isD6(data.type)) {
-    addScalar(step, batch, joint, tree);
+  if (isD6(data.type) || data.type == JointType::Distance) {
+    addScalar(world, step, batch, joint, tree);
   } else {
     tree ? addToTree(step, batch, joint) : addToTiles(step, batch, joint);
   }
@@ -143,18 +163,26 @@ void placeJoint(const WorldData& world, StepData& step, BatchRange& batch, uint3
 
 void plantForest(const WorldData& world, StepData& step, BatchRange& batch) {
   std::vector<uint32_t>& set = step.planting.set;
+  step.scalarOf.resize(world.joints.size(), kNone);
   set.resize(batch.bodies + 1);
   for (uint32_t i = 0; i <= batch.bodies; ++i) set[i] = i;
   for (uint32_t n = 0; n < batch.islandCount; ++n) {
     const Island& island = step.islands[batch.islandBegin + n];
     for (uint32_t i = 0; i < island.jointCount; ++i) {
       const uint32_t slot = step.islandJoints[island.jointBegin + i];
-      if (world.joints[slot].type != JointType::TetVolume) {
+      const JointType type = world.joints[slot].type;
+      if (isLinked(type)) continue;
+      if (type == JointType::TetVolume) {
+        addTet(world, step, batch, slot);
+        step.ranges[batch.islandBegin + n].coupled = true;
+      } else {
         placeJoint(world, step, batch, slot, n);
-        continue;
       }
-      addTet(world, step, batch, slot);
-      step.ranges[batch.islandBegin + n].coupled = true;
+    }
+    // Couplings name scalar joints by their place.
+    for (uint32_t i = 0; i < island.jointCount; ++i) {
+      const uint32_t slot = step.islandJoints[island.jointBegin + i];
+      if (isLinked(world.joints[slot].type)) addLinked(world, step, batch, slot, n);
     }
   }
   if (batch.forest == kNone) return;

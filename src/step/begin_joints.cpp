@@ -15,6 +15,7 @@ rows::FixedJoint<float> jointRows(const WorldData& world, const StepData& step, 
   const float speed = world.def.maxDepenetrationSpeed;
   rows.ball.bias = corrected(step, toRow(a.anchor - b.anchor), speed);
   rows.ball.lambda = {joint.lambda[0], joint.lambda[1], joint.lambda[2]};
+  rows.ball.adapts = world.def.jointArmBlend < 0 ? 1 : 0;
   rows.ball.tau =
       world.def.jointArmBlend >= 0 ? world.def.jointArmBlend : armBlend(step, a, b, length(rows.ball.lambda));
   const float w = a.invMass + b.invMass + a.turning * dot(a.arm, a.arm) + b.turning * dot(b.arm, b.arm);
@@ -82,6 +83,7 @@ void fillJoints(const WorldData& world, StepData& step) {
     for (TreeJoint& joint : step.forests[i].joints)
       if (joint.mixed < 0) joint.rows = jointRows(world, step, world.joints[joint.slot]);
   fillScalarJoints(world, step);
+  fillLinkedJoints(world, step);
 }
 
 }  // namespace avbd

@@ -21,6 +21,7 @@ void fillBodies(const WorldData& world, StepData& step);
 void fillContacts(WorldData& world, StepData& step);
 void fillJoints(const WorldData& world, StepData& step);
 void fillScalarJoints(const WorldData& world, StepData& step);
+void fillLinkedJoints(const WorldData& world, StepData& step);  ///< after the scalar ones
 
 /// Body row that a joint or pair names in its batch.
 uint32_t rowInBatch(const WorldData& world, StepData& step, BatchRange& batch, uint32_t body);

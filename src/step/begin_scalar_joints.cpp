@@ -1,5 +1,6 @@
-// Rows of hinges, sliders and D6 joints: constants and remembered multipliers.
+// Rows of hinges, sliders, D6 and distance joints: constants and remembered multipliers.
 #include "solve/scalar_joint.h"
+#include "step/coordinate_rows.h"
 #include "step/joint_side.h"
 #include "world/joints.h"
 
@@ -7,102 +8,102 @@ namespace avbd {
 
 namespace {
 
+using rows::Twist;
 using rows::V3;
 
 /// What all coordinates of one joint share.
 struct Frame {
   JointSide a, b;
-  V3<float> axis[3];     ///< of frame A, world
-  V3<float> armA, armB;  ///< to frame B's origin
+  rows::D6Measure<float> at;  ///< at the start of the step
+  Twist<float> velocityA, velocityB;
   bool inTree;
 };
 
-float inverseMassAlong(const JointSide& side, const V3<float>& arm, const V3<float>& direction) {
-  const V3<float> turn = cross(arm, direction);
-  return side.invMass + dot(turn, side.invInertia * turn);
+Twist<float> velocityOf(const WorldData& world, uint32_t body) {
+  if (body == kNone) return rows::zeroTwist<float>();
+  return {toRow(world.bodies[body].linearVelocity), toRow(world.bodies[body].angularVelocity)};
 }
 
-/// Inverse mass that the rows of a coordinate feel.
-float inverseMassOf(const Frame& frame, int i) {
-  const V3<float>& axis = frame.axis[i % 3];
-  if (i < 3) return inverseMassAlong(frame.a, frame.armA, axis) + inverseMassAlong(frame.b, frame.armB, axis);
-  return dot(axis, frame.a.invInertia * axis) + dot(axis, frame.b.invInertia * axis);
+float inverseMassAlong(const JointSide& side, const Twist<float>& j) {
+  return side.invMass * dot(j.lin, j.lin) + dot(j.ang, side.invInertia * j.ang);
 }
 
-struct Elastic {
-  float k = 0, s = 0;
+/// Inverse mass that a row feels, and the speed of what it measures.
+struct Felt {
+  float w = 0, speed = 0;
 };
-
-/// A row of finite stiffness: exact at once in a tree; elsewhere its stiffness in use is bounded by rho, and its
-/// multiplier finds the rest.
-Elastic elastic(float stiffness, float rho, bool inTree) {
-  if (inTree || !(rho > 0)) return {stiffness, 0};
-  return {stiffness * (rho / (stiffness + rho)), stiffness / (stiffness + rho)};
+Felt feltBy(const Frame& frame, const V3<float>& lin, const V3<float>& ang) {
+  const Twist<float> onA = shiftWrench(Twist<float>{lin, ang}, frame.at.armA);
+  const Twist<float> onB = shiftWrench(Twist<float>{lin, ang}, frame.at.armB);
+  return {inverseMassAlong(frame.a, onA) + inverseMassAlong(frame.b, onB),
+          dot(onA.lin, frame.velocityA.lin) + dot(onA.ang, frame.velocityA.ang) - dot(onB.lin, frame.velocityB.lin) -
+              dot(onB.ang, frame.velocityB.ang)};
 }
 
-/// speed: at which what lies beyond a stop is brought back at most, in the coordinate's unit.
-void fillLimit(const StepData& step, const JointLimit& limit, rows::D6Axis<float>& x, float rho, bool inTree,
-               float speed) {
-  x.k = rho, x.s = 1;
-  // Inside, the stop is where it is; beyond it, a part of the way back is asked for.
-  const float below = std::min(x.start - limit.lower, 0.0f), above = std::max(x.start - limit.upper, 0.0f);
-  if (limit.stiffness <= 0) {
-    x.lower = below < 0 ? x.start - corrected(step, below, speed) : limit.lower;
-    x.upper = above > 0 ? x.start - corrected(step, above, speed) : limit.upper;
-    return;
-  }
-  const bool beyond = below < 0 || above > 0;
-  const float damping = beyond ? limit.damping / step.h : 0, whole = limit.stiffness + damping;
-  const float share = limit.stiffness / whole;
-  x.lower = below < 0 ? x.start - below * share : limit.lower;
-  x.upper = above > 0 ? x.start - above * share : limit.upper;
-  const Elastic e = elastic(whole, rho, inTree);
-  x.k = e.k, x.s = e.s;
+/// From where the bodies would have come at their velocities.
+float chordSpeed(const StepData& step, const Frame& frame, const rows::D6Joint<float>& rows, int i) {
+  float before[6];
+  rows.coordinates(frame.velocityA * -step.h, frame.velocityB * -step.h, before);
+  return (rows.axis[i].start - before[i]) / step.h;
 }
-
-void fillDrive(const StepData& step, const JointDrive& drive, rows::D6Axis<float>& x, float rho, float w, bool inTree) {
-  const float scale = drive.acceleration && w > 0 ? 1 / w : 1;
-  const float stiffness = drive.stiffness * scale, damping = drive.damping * scale;
-  const float whole = stiffness + damping / step.h;
-  const Elastic e = elastic(whole, rho, inTree);
-  x.kDrive = e.k, x.sDrive = e.s, x.driveMost = drive.maxForce;
-  x.target = x.start + (stiffness * (drive.position - x.start) + damping * drive.velocity) / whole;
-}
-
-bool isLimited(const JointLimit& limit) { return limit.lower > -rows::kInfinity || limit.upper < rows::kInfinity; }
 
 void fillAxis(const WorldData& world, const StepData& step, const Frame& frame, const D6Data& data, int i,
               ScalarJoint& joint) {
-  const D6Axis& axis = data.axis[i];
-  rows::D6Axis<float>& x = joint.rows.axis[i];
-  const float w = inverseMassOf(frame, i), rho = w > 0 ? kJointFactor / (w * step.h * step.h) : 0;
-  const float speed = world.def.maxDepenetrationSpeed / (i < 3 ? 1 : world.def.lengthUnit);
-  const auto bit = static_cast<uint8_t>(1 << i);
-  const D6Data::Multipliers& l = data.lambda[i];
-  x.lambda = l.lock, x.lambdaLower = l.lower, x.lambdaUpper = l.upper;
-  x.lambdaDrive = l.drive, x.lambdaFriction = l.friction;
-  x.k = rho, x.s = 1;
-  if (axis.motion == AxisMotion::Locked) {
-    joint.axes.locked |= bit;
-    x.held = x.start - corrected(step, x.start, speed);
-    return;
-  }
-  if (isLimited(axis.limit)) {
-    joint.axes.limited |= bit;
-    fillLimit(step, axis.limit, x, rho, frame.inTree, speed);
-  }
-  if (axis.drive.stiffness > 0 || axis.drive.damping > 0) {
-    joint.axes.driven |= bit;
-    fillDrive(step, axis.drive, x, rho, w, frame.inTree);
-  }
-  if (axis.friction > 0) {
-    joint.axes.rubbing |= bit;
-    x.kFriction = rho, x.frictionMost = axis.friction;
+  const Felt felt = feltBy(frame, frame.at.lin[i], frame.at.ang[i]);
+  CoordinateState at{data.axis[i], data.lambda[i]};
+  at.chordSpeed = data.axis[i].armature > 0 ? chordSpeed(step, frame, joint.rows, i) : felt.speed;
+  at.axis = i, at.speed = felt.speed, at.w = felt.w, at.force = data.force[i], at.inTree = frame.inTree;
+  at.correction = world.def.maxDepenetrationSpeed / (i < 3 ? 1 : world.def.lengthUnit);
+  fillCoordinate(world, step, at, joint.axes, joint.rows.axis[i]);
+}
+
+void fillCone(const WorldData& world, const StepData& step, const Frame& frame, const D6Data& data,
+              ScalarJoint& joint) {
+  const SwingCone& cone = data.cone;
+  if (!(cone.y < rows::kInfinity) && !(cone.z < rows::kInfinity)) return;
+  joint.axes.cone = true;
+  rows::D6Cone<float>& row = joint.rows.cone;
+  const float y = frame.at.q[4], z = frame.at.q[5];
+  row.inverseY = 1 / cone.y, row.inverseZ = 1 / cone.z;
+  const float n = joint.rows.coneMeasure(y, z), swing = rows::sqrt(y * y + z * z);
+  row.scale = n > 1e-3f ? swing / n : rows::min(cone.y, cone.z);
+  const float beyond = rows::max(n - 1, 0.0f) * row.scale;
+  const float rho = stiffnessInUse(step, feltBy(frame, frame.at.lin[4], frame.at.ang[4]).w);
+  row.k = rho, row.s = 1;
+  row.lambda = data.coneLambda;
+  row.upper = 1;
+  if (cone.stiffness > 0) {
+    const float whole = cone.stiffness + (beyond > 0 ? cone.damping / step.h : 0);
+    if (beyond > 0) row.upper = n - beyond / row.scale * (cone.stiffness / whole);
+    const ElasticRow e = elasticRow(whole, rho, frame.inTree);
+    row.k = e.k, row.s = e.s;
+  } else if (beyond > 0) {
+    const float speed = world.def.maxDepenetrationSpeed / world.def.lengthUnit;
+    row.upper = n - corrected(step, beyond, speed) / row.scale;
   }
 }
 
+void fillSlerp(const StepData& step, const Frame& frame, const D6Data& data, ScalarJoint& joint) {
+  const SlerpDrive& drive = data.slerp;
+  const V3<float>& axis = frame.at.ang[3];
+  const float w = dot(axis, frame.a.invInertia * axis) + dot(axis, frame.b.invInertia * axis);
+  const float scale = drive.acceleration && w > 0 ? 1 / w : 1;
+  const float stiffness = drive.stiffness * scale, damping = drive.damping * scale;
+  const float whole = stiffness + damping / step.h;
+  if (!(whole > 0)) return;
+  joint.axes.slerp = true;
+  rows::D6Slerp<float>& row = joint.rows.slerp;
+  row.rotation = toRow(drive.rotation);
+  const Twist<float> still = rows::zeroTwist<float>();
+  const V3<float> start = joint.rows.slerpMeasure(still, still);
+  row.target = start + (toRow(drive.velocity) * damping - start * stiffness) * (1 / whole);
+  const ElasticRow e = elasticRow(whole, stiffnessInUse(step, w), frame.inTree);
+  row.k = e.k, row.s = e.s, row.most = drive.maxForce;
+  row.lambda = toRow(data.slerpLambda);
+}
+
 void findCoordinates(const D6Data& data, rows::D6Joint<float>& rows) {
-  const rows::Twist<float> still = rows::zeroTwist<float>();
+  const Twist<float> still = rows::zeroTwist<float>();
   float q[6];
   rows.axis[3].start = rows.rawTwist = 0;
   rows.coordinates(still, still, q);
@@ -111,33 +112,90 @@ void findCoordinates(const D6Data& data, rows::D6Joint<float>& rows) {
   if (data.twistKnown) rows.axis[3].start = data.twist + rows::withinHalfTurn(q[3] - data.twist);
 }
 
-void fillScalarJoint(const WorldData& world, const StepData& step, ScalarJoint& joint) {
+float blendOf(const WorldData& world, const StepData& step, const JointData& joint, const Frame& frame) {
+  if (world.def.jointArmBlend >= 0) return world.def.jointArmBlend;
+  const V3<float> force{joint.lambda[0], joint.lambda[1], joint.lambda[2]};
+  return armBlend(step, frame.a, frame.b, length(force));
+}
+
+Frame frameOf(const WorldData& world, const JointData& data, bool inTree) {
+  return {jointSide(world, data, 0),       jointSide(world, data, 1),       {},
+          velocityOf(world, data.body[0]), velocityOf(world, data.body[1]), inTree};
+}
+
+void fillD6(const WorldData& world, const StepData& step, ScalarJoint& joint) {
   const JointData& data = world.joints[joint.slot];
   const D6Data& d6 = world.d6[joint.slot];
-  Frame frame{jointSide(world, data, 0), jointSide(world, data, 1), {}, {}, {}, joint.inTree};
+  Frame frame = frameOf(world, data, joint.inTree);
   rows::D6Joint<float>& rows = joint.rows;
   rows = {};
   rows.armA = frame.a.arm, rows.armB = frame.b.arm;
   rows.qA = frame.a.axes, rows.qB = frame.b.axes;
   rows.offset = toRow(frame.b.anchor - frame.a.anchor);
-  frame.armA = rows.armA + rows.offset, frame.armB = rows.armB;
-  const V3<float> unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (int i = 0; i < 3; ++i) frame.axis[i] = rotate(rows.qA, unit[i]);
-  const V3<float> force{data.lambda[0], data.lambda[1], data.lambda[2]};
-  rows.tau = world.def.jointArmBlend >= 0 ? world.def.jointArmBlend : armBlend(step, frame.a, frame.b, length(force));
+  rows.tau = blendOf(world, step, data, frame);
+  rows.adapts = world.def.jointArmBlend < 0 ? 1 : 0;
   findCoordinates(d6, rows);
+  const Twist<float> still = rows::zeroTwist<float>();
+  frame.at = rows.measure(still, still);
   joint.axes = {};
+  // Locked swings are measured by their sines.
+  if (d6.axis[4].motion == AxisMotion::Locked) rows.axis[4].start = -frame.at.z;
+  if (d6.axis[5].motion == AxisMotion::Locked) rows.axis[5].start = frame.at.y;
   for (int i = 0; i < 6; ++i) fillAxis(world, step, frame, d6, i, joint);
+  fillCone(world, step, frame, d6, joint);
+  fillSlerp(step, frame, d6, joint);
   const V3<float> turned = logQuat(rows.qA * conjugate(rows.qB));
   rows.logHeld = turned - corrected(step, turned, world.def.maxDepenetrationSpeed / world.def.lengthUnit);
+}
+
+/// A range of one length is a rod.
+void fillDistance(const WorldData& world, const StepData& step, ScalarJoint& joint) {
+  const JointData& data = world.joints[joint.slot];
+  const LinkData& link = world.links[joint.slot];
+  Frame frame = frameOf(world, data, joint.inTree);
+  rows::Distance<float>& rows = joint.distance;
+  rows = {};
+  rows.armA = frame.a.arm, rows.armB = frame.b.arm;
+  rows.offset = toRow(frame.b.anchor - frame.a.anchor);
+  rows.start = length(rows.offset);
+  rows.direction = rows.start > 0 ? rows.offset * (1 / rows.start) : V3<float>{0, -1, 0};
+  rows.tau = blendOf(world, step, data, frame);
+  rows.adapts = world.def.jointArmBlend < 0 ? 1 : 0;
+  frame.at.armA = rows.armA + rows.offset, frame.at.armB = rows.armB;
+  const Felt felt = feltBy(frame, -rows.direction, rows::zeroV3<float>());
+  const auto across = [](const JointSide& side) { return side.invMass + side.turning * dot(side.arm, side.arm); };
+  rows.swing = step.h * step.h * (across(frame.a) + across(frame.b));
+  const D6Axis axis{AxisMotion::Free, {link.min, link.max, data.stiffness, link.damping}, {}, 0};
+  CoordinateState at{axis, link.lambda};
+  at.speed = at.chordSpeed = felt.speed, at.w = felt.w, at.inTree = frame.inTree,
+  at.correction = world.def.maxDepenetrationSpeed;
+  rows::D6Axes axes;
+  rows::D6Axis<float> x{};
+  x.start = rows.start;
+  fillCoordinate(world, step, at, axes, x);
+  rows.k = x.k, rows.s = x.s, rows.lower = x.lower, rows.upper = x.upper;
+  rows.lambdaLower = x.lambdaLower, rows.lambdaUpper = x.lambdaUpper;
+  rows.hasLower = link.min > 0 ? 1 : 0, rows.hasUpper = link.max < rows::kInfinity ? 1 : 0;
+  if (link.min < link.max) return;
+  rows.rigid = 1;
+  rows.upper = rows.start - corrected(step, rows.start - link.max, at.correction);
+  if (data.stiffness > 0) {
+    const float whole = data.stiffness + link.damping / step.h;
+    const ElasticRow e = elasticRow(whole, stiffnessInUse(step, felt.w), frame.inTree);
+    rows.k = e.k, rows.s = e.s;
+    rows.upper = rows.start - (rows.start - link.max) * (data.stiffness / whole);
+  }
+  rows.lambdaUpper = link.lambda.lock + link.lambda.lower + link.lambda.upper;
 }
 
 }  // namespace
 
 void fillScalarJoints(const WorldData& world, StepData& step) {
   for (const BatchRange& batch : step.batches)
-    for (uint32_t i = 0; i < batch.scalarCount; ++i)
-      fillScalarJoint(world, step, step.scalar[batch.scalarTile * kTile + i]);
+    for (uint32_t i = 0; i < batch.scalarCount; ++i) {
+      ScalarJoint& joint = step.scalar[batch.scalarTile * kTile + i];
+      joint.kind == ScalarJoint::Kind::D6 ? fillD6(world, step, joint) : fillDistance(world, step, joint);
+    }
   // Lanes that stand for nothing.
   for (const BatchRange& batch : step.batches) {
     const size_t first = size_t(batch.contactTile) + batch.contactTiles + batch.ballTile + batch.ballTiles +

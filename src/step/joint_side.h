@@ -42,7 +42,7 @@ inline JointSide jointSide(const WorldData& world, const JointData& joint, int i
 }
 
 /// How far the arms in J go from the start of the step to its end: by the joint's own stability number
-/// chi = h^2 |F| |r| w, whose limit for the symplectic choice (0) is 4.
+/// chi = h^2 |F| |r| w, whose limit for the symplectic choice (0) is 4. Rows take more where a body turns far (row.h).
 inline float armBlend(const StepData& step, const JointSide& a, const JointSide& b, float force) {
   const float chi =
       step.h * step.h * force * std::max(rows::length(a.arm) * a.turning, rows::length(b.arm) * b.turning);

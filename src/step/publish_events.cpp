@@ -229,7 +229,7 @@ void noteContact(WorldData& world, StepData& step, uint32_t index, const PointFo
 void publishEvents(WorldData& world, StepData& step) {
   Events& events = world.events;
   events.begins.clear(), events.ends.clear(), events.enters.clear(), events.leaves.clear();
-  events.hits.clear(), events.moves.clear();
+  events.hits.clear(), events.moves.clear(), events.breaks.clear();
   mergeTouches(step.touches);
   publishLost(world, step);
   for (const uint64_t key : step.touchChanges) {

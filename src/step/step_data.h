@@ -8,6 +8,7 @@
 #include "collide/collide_surface.h"
 #include "solve/backend.h"
 #include "solve/krylov.h"
+#include "solve/linked_joint.h"
 #include "solve/scalar_joint.h"
 #include "solve/sweep.h"
 #include "step/free_motion.h"
@@ -35,6 +36,7 @@ struct BatchRange {
   uint32_t tetTile = 0, tetTiles = 0;
   uint32_t fullTile = 0, fullTiles = 0;
   uint32_t scalarTile = 0, scalarTiles = 0, scalarCount = 0;
+  uint32_t linkedBegin = 0, linkedCount = 0;
   uint32_t lockedBegin = 0, lockedCount = 0;
   uint32_t forest = kNone;  ///< in StepData::forests
 };
@@ -127,6 +129,9 @@ struct StepData {
   int substep = 0;  ///< that runs
 
   std::vector<BodyData> bodiesBefore;   ///< the whole step, where substeps may fail
+  std::vector<JointData> jointsBefore;  ///< likewise
+  std::vector<D6Data> d6Before;
+  std::vector<LinkData> linksBefore;
   std::vector<PairData> pairsBefore;    ///< the same, where the contact hook may fail: if pairsKept
   size_t lostBefore = 0;                ///< how many lostTouches there were when the step began
   std::vector<PointMeans> meansBefore;  ///< of the step before
@@ -185,6 +190,8 @@ struct StepData {
   AlignedVector<Tile<rows::TetVolume>> tets;
   AlignedVector<Tile<rows::FullContact>> full;
   std::vector<ScalarJoint> scalar;  ///< by lane; padding has no slot
+  std::vector<uint32_t> scalarOf;   ///< by joint slot: index in `scalar`
+  std::vector<LinkedJoint> linked;
   std::vector<uint32_t> contactRow[2], ballRow[2], fixedRow[2], tetRow[4], fullRow[2], scalarRow[2];
   std::vector<uint32_t> contactPair, ballJoint, fixedJoint, tetJoint;  ///< by lane: pair or joint slot, kNone
   AlignedVector<Tile<PairOp>> op;

@@ -93,6 +93,20 @@ struct D6Plan {
 D6Plan checkedJoint(const WorldData& data, const HingeJoint& def);
 D6Plan checkedJoint(const WorldData& data, const SliderJoint& def);
 D6Plan checkedJoint(const WorldData& data, const D6Joint& def);
+/// A distance joint, pulley, coupling or custom joint, ready to be added.
+struct LinkPlan {
+  JointData joint;
+  LinkData link;
+};
+LinkPlan checkedJoint(const WorldData& data, const DistanceJoint& def);
+LinkPlan checkedJoint(const WorldData& data, const PulleyJoint& def);
+LinkPlan checkedJoint(const WorldData& data, const Coupling& def);
+LinkPlan checkedJoint(const WorldData& data, const CustomJoint& def);
+/// swing: of one of two free swings; angular: of an angle.
+void checkAxis(const Path& path, const D6Axis& axis, bool swing, bool angular, double unit);
+void checkSpring(const Path& path, const JointSpring& spring, bool angular, double unit);
+void checkSlerpDrive(const Path& path, const SlerpDrive& drive);
+void checkBreak(const Path& path, const JointBreak& limits);
 /// angular: of an angle. Returns nothing: limits and drives are kept as they are.
 void checkLimit(const Path& path, const JointLimit& limit, bool swing, bool angular, double unit);
 void checkDrive(const Path& path, const JointDrive& drive, bool angular, double unit);

@@ -12,6 +12,16 @@ struct JointMotion {
 };
 JointMotion motionOf(const WorldData& data, uint32_t joint);
 
+/// The length of a distance joint or pulley, or L of a coupling, and its rate.
+struct LinkMotion {
+  double position = 0, velocity = 0;
+};
+LinkMotion linkMotionOf(const WorldData& data, uint32_t joint);
+/// How far a distance joint, pulley or locked coupling is from holding.
+double linkGap(const WorldData& data, uint32_t joint);
+/// The largest |C| of a custom joint's hard rows.
+double customGap(const WorldData& data, uint32_t joint);
+
 /// Distance along locked axes.
 double lockedGap(const WorldData& data, uint32_t joint);
 /// Angle about locked axes.

@@ -1,6 +1,9 @@
 // Lists of joints by body, anchors and exclusions (joints.h).
 #include "world/joints.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "world/pairs.h"
 
 namespace avbd {
@@ -14,7 +17,7 @@ void updateAnchor(const WorldData& data, uint32_t slot, JointData& joint, int si
 }
 
 bool excludes(const JointData& joint) {
-  return !joint.collideConnected && joint.body[0] != kNone && joint.body[1] != kNone;
+  return joint.enabled && !joint.collideConnected && joint.body[0] != kNone && joint.body[1] != kNone;
 }
 
 void unlink(WorldData& data, uint32_t slot, int side) {
@@ -29,19 +32,24 @@ void unlink(WorldData& data, uint32_t slot, int side) {
 
 }  // namespace
 
+bool hasFrames(JointType type) {
+  return type != JointType::TetVolume && type != JointType::Coupling && type != JointType::Custom;
+}
+
 Quat innerAxes(int turned) {
   constexpr Quat kTurns[] = {{1, 0, 0, 0}, {0.5f, 0.5f, 0.5f, 0.5f}, {0.5f, -0.5f, -0.5f, -0.5f}};
   return kTurns[turned];
 }
 
-uint32_t addJoint(WorldData& data, const JointData& checked) { return addJoint(data, checked, {}); }
+namespace {
 
-uint32_t addJoint(WorldData& data, const JointData& checked, const D6Data& d6) {
-  const uint32_t slot = data.jointIds.slot(data.jointIds.create());
-  if (isD6(checked.type)) {
-    if (slot >= data.d6.size()) data.d6.resize(slot + 1);
-    data.d6[slot] = d6;
-  }
+template <class T>
+void place(std::vector<T>& list, uint32_t slot, const T& value) {
+  if (slot >= list.size()) list.resize(slot + 1);
+  list[slot] = value;
+}
+
+uint32_t link(WorldData& data, uint32_t slot, const JointData& checked) {
   if (slot >= data.joints.size()) data.joints.resize(slot + 1);
   JointData& joint = data.joints[slot];
   joint = checked;
@@ -50,7 +58,7 @@ uint32_t addJoint(WorldData& data, const JointData& checked, const D6Data& d6) {
     joint.next[side] = data.bodies[joint.body[side]].firstJoint;
     data.bodies[joint.body[side]].firstJoint = slot;
   }
-  if (joint.type != JointType::TetVolume) {
+  if (hasFrames(joint.type)) {
     updateAnchor(data, slot, joint, 0);
     updateAnchor(data, slot, joint, 1);
   }
@@ -58,7 +66,88 @@ uint32_t addJoint(WorldData& data, const JointData& checked, const D6Data& d6) {
   return slot;
 }
 
+bool isBreakable(const JointBreak& limits) { return std::isfinite(limits.force) || std::isfinite(limits.torque); }
+
+void removeCouplingsOf(WorldData& data, uint32_t joint) {
+  for (size_t i = 0; i < data.couplings.size();) {
+    const std::vector<LinkTerm>& terms = data.links[data.couplings[i]].terms;
+    const bool names = std::any_of(terms.begin(), terms.end(), [&](const LinkTerm& t) { return t.joint == joint; });
+    names ? removeJoint(data, data.couplings[i]) : static_cast<void>(++i);
+  }
+}
+
+}  // namespace
+
+uint32_t addJoint(WorldData& data, const JointData& checked) {
+  return link(data, data.jointIds.slot(data.jointIds.create()), checked);
+}
+
+uint32_t addJoint(WorldData& data, const JointData& checked, const D6Data& d6) {
+  const uint32_t slot = data.jointIds.slot(data.jointIds.create());
+  place(data.d6, slot, d6);
+  return link(data, slot, checked);
+}
+
+uint32_t addJoint(WorldData& data, const JointData& checked, const LinkData& with) {
+  const uint32_t slot = data.jointIds.slot(data.jointIds.create());
+  place(data.links, slot, with);
+  if (checked.type == JointType::Coupling)
+    data.couplings.insert(std::lower_bound(data.couplings.begin(), data.couplings.end(), slot), slot);
+  return link(data, slot, checked);
+}
+
+void clearJointForces(WorldData& data) {
+  if (!data.jointForces) return;
+  for (D6Data& d6 : data.d6) std::fill(std::begin(d6.force), std::end(d6.force), 0.0f);
+  for (LinkData& link : data.links) link.force = 0;
+  data.jointForces = false;
+}
+
+bool acts(const WorldData& data, uint32_t slot) {
+  if (!data.joints[slot].enabled) return false;
+  if (data.joints[slot].type != JointType::Coupling) return true;
+  const std::vector<LinkTerm>& terms = data.links[slot].terms;
+  return std::all_of(terms.begin(), terms.end(), [&](const LinkTerm& t) { return data.joints[t.joint].enabled; });
+}
+
+void setEnabled(WorldData& data, uint32_t slot, bool enabled) {
+  JointData& joint = data.joints[slot];
+  if (joint.enabled == enabled) return;
+  if (excludes(joint)) endExclusion(data, joint.body[0], joint.body[1]);
+  joint.enabled = enabled, joint.strained = false;
+  if (excludes(joint)) exclude(data, joint.body[0], joint.body[1]);
+  if (enabled) return;
+  joint.reaction = {};
+  std::fill(std::begin(joint.lambda), std::end(joint.lambda), 0.0f);
+  if (isD6(joint.type)) {
+    D6Data& d6 = data.d6[slot];
+    std::fill(std::begin(d6.lambda), std::end(d6.lambda), JointMultipliers{});
+    d6.coneLambda = 0, d6.slerpLambda = {}, d6.twistKnown = false;
+  }
+  if (isLink(joint.type)) data.links[slot].lambda = {};
+}
+
+void setBreaks(WorldData& data, uint32_t slot, const JointBreak& limits) {
+  JointData& joint = data.joints[slot];
+  data.breakable -= isBreakable(joint.breaks);
+  joint.breaks = limits, joint.strained = false;
+  data.breakable += isBreakable(limits);
+}
+
+void setFrames(WorldData& data, uint32_t slot, const Pose& frameA, const Pose& frameB) {
+  JointData& joint = data.joints[slot];
+  joint.frame[0] = frameA, joint.frame[1] = frameB;
+  updateAnchor(data, slot, joint, 0);
+  updateAnchor(data, slot, joint, 1);
+}
+
 void removeJoint(WorldData& data, uint32_t slot) {
+  if (!data.couplings.empty()) {
+    std::erase(data.couplings, slot);
+    removeCouplingsOf(data, slot);
+  }
+  data.breakable -= isBreakable(data.joints[slot].breaks);
+  if (isLink(data.joints[slot].type)) data.links[slot] = {};
   const JointData joint = data.joints[slot];
   for (int side = 0; side < 4; ++side) {
     if (joint.body[side] != kNone) unlink(data, slot, side);
@@ -77,7 +166,7 @@ void updateAnchorsOf(WorldData& data, uint32_t body) {
   while (slot != kNone) {
     JointData& joint = data.joints[slot];
     const int side = sideOf(joint, body);
-    if (joint.type != JointType::TetVolume) updateAnchor(data, slot, joint, side);
+    if (hasFrames(joint.type)) updateAnchor(data, slot, joint, side);
     slot = joint.next[side];
   }
 }

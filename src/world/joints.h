@@ -12,12 +12,44 @@ void removeJointsOf(WorldData& data, uint32_t body);
 void updateAnchorsOf(WorldData& data, uint32_t body);
 
 /// Whether D6Data belongs to joints of this type.
-inline bool isD6(JointType type) { return type >= JointType::Hinge; }
+inline bool isD6(JointType type) { return type >= JointType::Hinge && type <= JointType::D6; }
+/// Whether LinkData does.
+inline bool isLink(JointType type) { return type >= JointType::Distance; }
 uint32_t addJoint(WorldData& data, const JointData& joint, const D6Data& d6);
+uint32_t addJoint(WorldData& data, const JointData& joint, const LinkData& link);
+
+/// Slots in JointData::body that the joint's type uses.
+inline int bodyCount(const WorldData& data, uint32_t slot) {
+  const JointData& joint = data.joints[slot];
+  if (joint.type == JointType::TetVolume) return 4;
+  if (joint.type == JointType::Coupling) return 0;
+  return joint.type == JointType::Custom ? data.links[slot].bodies : 2;
+}
+/// Calls f(body slot or kNone) for each body that a joint acts on, of a coupling those of its terms; some more than
+/// once.
+template <class F>
+void forEachBody(const WorldData& data, uint32_t slot, F&& f) {
+  const JointData& joint = data.joints[slot];
+  if (joint.type == JointType::Coupling) {
+    for (const LinkTerm& term : data.links[slot].terms)
+      for (int side = 0; side < 2; ++side) f(data.joints[term.joint].body[side]);
+    return;
+  }
+  for (int i = 0; i < bodyCount(data, slot); ++i) f(joint.body[i]);
+}
+/// Forgets the forces that were given along coordinates.
+void clearJointForces(WorldData& data);
+/// Enabled, and of a coupling all its joints too.
+bool acts(const WorldData& data, uint32_t slot);
+void setEnabled(WorldData& data, uint32_t slot, bool enabled);
+void setBreaks(WorldData& data, uint32_t slot, const JointBreak& limits);
+void setFrames(WorldData& data, uint32_t slot, const Pose& frameA, const Pose& frameB);  ///< checked before
 
 /// The rotation that takes inner axes to the user's (D6Data::turned).
 Quat innerAxes(int turned);
 
+/// Whether a type has two frames.
+bool hasFrames(JointType type);
 /// Joint frame 0 or 1 in the world.
 Pose worldFrame(const WorldData& data, const JointData& joint, int side);
 /// Signed volume between the centres of mass.

@@ -54,6 +54,8 @@ Vec3d totalAngularMomentum(const WorldData& data, Vec3d about) {
 double jointGap(const WorldData& data, const JointData& joint) {
   if (joint.type == JointType::TetVolume) return std::abs(tetVolume(data, joint) - joint.restVolume);
   if (isD6(joint.type)) return lockedGap(data, slotOf(data, joint));
+  if (joint.type == JointType::Custom) return customGap(data, slotOf(data, joint));
+  if (isLink(joint.type)) return linkGap(data, slotOf(data, joint));
   return length(worldFrame(data, joint, 0).position - worldFrame(data, joint, 1).position);
 }
 

@@ -65,7 +65,8 @@ PairData newPair(const WorldData& data, uint64_t key) {
 namespace {
 
 LostTouch lostTouch(const WorldData& data, const PairData& head) {
-  LostTouch lost{{head.shapeId(0), head.shapeId(1)}, {head.bodyId(0), head.bodyId(1)}};
+  LostTouch lost;
+  for (int side = 0; side < 2; ++side) lost.shape[side] = head.shapeId(side), lost.body[side] = head.bodyId(side);
   lost.isTrigger = head.isTrigger, lost.triggerIsA = head.triggerIsA;
   lost.reports = head.reports;
   lost.wasTouching = head.wasTouching;

@@ -17,13 +17,24 @@ void add(Hash64& hash, const BodyData& body) {
   hash.value(body.torque);
 }
 
+void add(Hash64& hash, const JointMultipliers& l) {
+  const float all[] = {l.lock, l.lower, l.upper, l.drive, l.friction, l.passive};
+  hash.value(all);
+}
+
 void add(Hash64& hash, const D6Data& d6) {
   hash.value(d6.twist);
   hash.value(static_cast<uint8_t>(d6.twistKnown));
-  for (const D6Data::Multipliers& l : d6.lambda) {
-    const float all[] = {l.lock, l.lower, l.upper, l.drive, l.friction};
-    hash.value(all);
-  }
+  for (const JointMultipliers& l : d6.lambda) add(hash, l);
+  hash.value(d6.force);
+  hash.value(d6.coneLambda);
+  hash.value(d6.slerpLambda);
+}
+
+void add(Hash64& hash, const LinkData& link) {
+  add(hash, link.lambda);
+  hash.value(link.force);
+  for (const float x : link.memory) hash.value(x);
 }
 
 void add(Hash64& hash, const PointMemory& point) {
@@ -78,7 +89,9 @@ uint64_t stateHash(const WorldData& data) {
   data.jointIds.forEach([&](uint32_t slot) {
     hash.value(slot);
     hash.value(data.joints[slot].lambda);
+    hash.value(static_cast<uint8_t>(data.joints[slot].enabled | data.joints[slot].strained << 1));
     if (isD6(data.joints[slot].type)) add(hash, data.d6[slot]);
+    if (isLink(data.joints[slot].type)) add(hash, data.links[slot]);
   });
   forEachPair(data, [&](const PairData& pair) { add(hash, pair); });
   return hash.digest();

@@ -63,9 +63,17 @@ struct JointData {
   Vec3 anchor[2];                                   ///< relative to the centre of mass, body axes; of the world: unused
   Quat axes[2];                                     ///< joint frame in the body; of the world: in the world
   float restVolume = 0, stiffness = 0;
-  float lambda[6] = {};  ///< multipliers [N, N m] along world axes, of body A
+  float lambda[6] = {};  ///< multipliers [N, N m] along world axes, of body A; of a pulley and a custom joint by row
   JointReaction reaction;
+  bool enabled = true;
+  JointBreak breaks;
+  bool strained = false;  ///< the last step's reaction was beyond `breaks`
   uint64_t userData = 0;
+};
+
+/// Of the rows of one coordinate [N, N m], along it on B.
+struct JointMultipliers {
+  float lock = 0, lower = 0, upper = 0, drive = 0, friction = 0, passive = 0;
 };
 
 /// What a hinge, slider or D6 joint has besides, in the order of its inner coordinates: where only one swing is free,
@@ -75,10 +83,35 @@ struct D6Data {
   uint8_t turned = 0;  ///< inner axis i is the user's axis (i + turned) mod 3
   float twist = 0;     ///< [rad] at the end of the last step, full turns counted
   bool twistKnown = false;
-  struct Multipliers {
-    float lock = 0, lower = 0, upper = 0, drive = 0, friction = 0;
-  };
-  Multipliers lambda[6];  ///< along the coordinate, on B [N, N m]
+  JointMultipliers lambda[6];
+  float force[6] = {};  ///< given by the user for the next step
+  SwingCone cone;
+  SlerpDrive slerp;
+  float coneLambda = 0;
+  Vec3 slerpLambda;  ///< along A's axes
+};
+
+/// What a coordinate adds to a coupling.
+struct LinkTerm {
+  uint32_t joint = kNone;  ///< slot
+  JointAxis axis = JointAxis::Twist;
+  float factor[4] = {};  ///< of q, q^2, q^3, q^4
+};
+
+/// What a distance joint, pulley, coupling or custom joint has besides.
+struct LinkData {
+  float min = 0, max = 0, damping = 0;  ///< distance: range; pulley: max is the length
+  Vec3d wheel[2];                       ///< pulley, world
+  float ratio = 1;
+  bool slack = true;
+  std::vector<LinkTerm> terms;  ///< coupling
+  D6Axis axis;                  ///< of a coupling's coordinate
+  double rest = 0;
+  float force = 0;  ///< given by the user for the next step
+  JointMultipliers lambda;
+  std::shared_ptr<const CustomFamily> family;  ///< custom joint
+  int bodies = 0;
+  std::vector<float> constants, memory;
 };
 
 /// What a contact point remembers.
@@ -155,6 +188,10 @@ struct WorldData {
   std::vector<ShapeData> shapes;
   std::vector<JointData> joints;
   std::vector<D6Data> d6;               ///< by joint slot, up to the highest that needs one
+  std::vector<LinkData> links;          ///< likewise
+  std::vector<uint32_t> couplings;      ///< joint slots, ascending
+  bool jointForces = false;             ///< some joint was given a force for the next step
+  uint32_t breakable = 0;               ///< how many joints have a bound in `breaks`
   std::vector<PairData> pairs;          ///< ordered by key
   std::vector<uint64_t> excludedPairs;  ///< body slots, low << 32 | high, sorted, each as often as it was excluded
   DynamicTree tree;                     ///< fat bounds of all shapes; user data is the shape's slot

@@ -1,8 +1,10 @@
 // Keys, and the mouse's clicks and hovering; orbiting is three's own.
 
+const kMarks = ['frames', 'limits', 'reactions'];
+
 export function addKeys(viewer) {
   const {actions} = viewer;
-  const toggles = {c: 'contacts', v: 'forces', j: 'joints', n: 'names', t: 'theme', p: 'panel', l: 'loop', g: 'follow', e: 'tail'};
+  const toggles = {c: 'contacts', v: 'forces', j: 'joints', x: 'frames', m: 'limits', b: 'reactions', n: 'names', t: 'theme', p: 'panel', l: 'loop', g: 'follow', e: 'tail'};
   const keys = {
     ' ': () => actions.togglePlay(),
     ArrowLeft: (event) => actions.step(event.shiftKey ? -10 : -1),
@@ -25,6 +27,7 @@ export function addKeys(viewer) {
     if (event.key === ' ' && event.target.tagName === 'BUTTON') return;
     const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const button = viewer.interface.toggles[toggles[name]];
+    if (kMarks.includes(toggles[name]) && !button) return;  // nothing of the kind to show
     if (toggles[name] && !button?.disabled && !event.repeat) actions.toggle(toggles[name]);
     else if (keys[name]) keys[name](event);
     else return;

@@ -1,4 +1,5 @@
 // The page around the picture: title, toolbar, transport, panel. It holds no state of the run, only elements.
+import {hasCone, hasFrames, hasLimits, limits} from './joints.js';
 import {Plot} from './plots.js';
 
 /// An element: attributes by name, `text` for its text, then its children.
@@ -43,7 +44,8 @@ const counted = (count, noun) => `${count} ${noun}${count === 1 ? '' : 's'}`;
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 4];
 const kKeys = [
   ['Space', 'play or pause'], ['← →', 'one frame back or on; with Shift ten'], ['Home End', 'first or last frame'],
-  ['[ ]', 'slower, faster'], ['C', 'contact points'], ['V', 'force lines'], ['J', 'joints'], ['N', 'names'], ['E', 'stay at the end of a run that goes on'],
+  ['[ ]', 'slower, faster'], ['C', 'contact points'], ['V', 'force lines'], ['J', 'joints'], ['X', 'frames of joints'],
+  ['M', 'limits of joints'], ['B', 'forces of joints on their second bodies'], ['N', 'names'], ['E', 'stay at the end of a run that goes on'],
   ['F', 'look at the selected body'], ['G', 'follow it'], ['Esc', 'select nothing'], ['R', 'reset the view'],
   ['T', 'light or dark'], ['P', 'panel'], ['Left drag', 'orbit'], ['Right drag', 'pan'], ['Wheel', 'zoom'],
 ];
@@ -94,6 +96,10 @@ export class Interface {
     chip('contacts', 'Contacts', 'C', touching);
     chip('forces', 'Forces', 'V', touching);
     chip('joints', 'Joints', 'J', this.recording.joints.length > 0);
+    // Of joints there is more to show only where the recording knows more than their anchors.
+    if (hasFrames(this.recording)) chip('frames', 'Frames', 'X', true);
+    if (hasLimits(this.recording)) chip('limits', 'Limits', 'M', true);
+    if (this.recording.jointStates && this.recording.joints.length > 0) chip('reactions', 'Reactions', 'B', true);
     chip('names', 'Names', 'N', this.recording.bodyCount > 0);
     bar.append(make('span', {class: 'gap'}));
     const tool = (name, title, action) => {
@@ -169,12 +175,18 @@ export class Interface {
 
   makePlots() {
     const {recording} = this;
-    const plot = (title, unit, color, values) =>
-        new Plot(make, {title, unit, color, times: recording.times, values, onSeek: this.actions.seek});
-    this.plots = [plot('Kinetic energy', 'J', '#4e9be6', recording.energy),
-                  plot('Largest penetration', 'm', '#e8973c', recording.penetration)];
-    if (recording.joints.length > 0 || recording.gap.some((value) => value > 0)) {
-      this.plots.push(plot('Largest joint gap', 'm', '#e0558c', recording.gap));
+    const plot = (name, title, unit, color) => this.plots.push(
+        new Plot(make, {name, title, unit, color, times: recording.times, values: recording[name], onSeek: this.actions.seek}));
+    const {joints} = recording, any = (values) => values.some((value) => value > 0);
+    this.plots = [];
+    plot('energy', 'Kinetic energy', 'J', '#4e9be6');
+    plot('penetration', 'Largest penetration', 'm', '#e8973c');
+    if (joints.length > 0 || any(recording.gap)) plot('gap', 'Largest joint gap', 'm', '#e0558c');
+    if (any(recording.excess) || joints.some((joint) => limits(joint, [0, 1, 2]))) {
+      plot('excess', 'Beyond limits, sliding', 'm', '#9ccc3c');
+    }
+    if (any(recording.excessAngle) || joints.some((joint) => limits(joint, [3, 4, 5]) || hasCone(joint))) {
+      plot('excessAngle', 'Beyond limits, turning', 'rad', '#b58cf0');
     }
     return this.plots.map((item) => item.element);
   }
@@ -194,7 +206,7 @@ export class Interface {
     this.scrub.min = times[0];
     this.scrub.max = times[frameCount - 1];
     this.titleFacts.textContent = this.factsText();
-    this.plots.forEach((plot, i) => plot.setData(times, this.recording[['energy', 'penetration', 'gap'][i]]));
+    for (const plot of this.plots) plot.setData(times, this.recording[plot.name]);
   }
 
   showSelection(facts) {

@@ -1,5 +1,5 @@
 // A recording that a server sends frame by frame (live.cpp), and that may still grow.
-import {Recording} from './recording.js';
+import {kFigures as kFigureNames, kNoReactions, Recording} from './recording.js';
 
 const kAhead = 96;          // frames asked for beyond the one that is shown
 const kKept = 256e6;        // bytes of frames kept; the ones not shown for longest go
@@ -11,6 +11,13 @@ function joined(Type, a, first, b) {
   out.set(a.subarray(0, first));
   out.set(b, first);
   return out;
+}
+
+/// A joint that is not enabled has a force that is no number.
+function reactionsOf(forces) {
+  if (forces.length === 0) return kNoReactions;
+  const off = Array.from({length: forces.length / 3}, (_, i) => Number.isNaN(forces[3 * i]));
+  return {forces: forces.map((value) => (Number.isNaN(value) ? 0 : value)), off: (i) => off[i]};
 }
 
 export class LiveRecording extends Recording {
@@ -36,7 +43,7 @@ export class LiveRecording extends Recording {
       return list;
     };
     this.times = joined(Float64Array, this.times, first, part(Float64Array));
-    for (const name of ['energy', 'penetration', 'gap']) this[name] = joined(Float32Array, this[name], first, part(Float32Array));
+    for (const name of kFigureNames) this[name] = joined(Float32Array, this[name], first, part(Float32Array));
     for (const name of ['contactsAll', 'contactsKept']) this[name] = joined(Uint32Array, this[name], first, part(Uint32Array));
     this.frameCount = this.times.length;
     this.finished = finished === 1;
@@ -46,12 +53,16 @@ export class LiveRecording extends Recording {
   }
 
   takeFrame(buffer) {
-    const [, frame, bodies, contacts] = new Uint32Array(buffer, 0, 4);
-    const poses = new Float32Array(buffer, 16, 7 * bodies);
-    const positions = new Float32Array(buffer, 16 + 28 * bodies, 3 * contacts);
-    const forces = new Float32Array(buffer, 16 + 28 * bodies + 12 * contacts, 3 * contacts);
+    const [, frame, bodies, contacts, joints] = new Uint32Array(buffer, 0, 5);
+    let at = 20;
+    const part = (count) => {
+      const list = new Float32Array(buffer, at, count);
+      at += list.byteLength;
+      return list;
+    };
+    const poses = part(7 * bodies), positions = part(3 * contacts), forces = part(3 * contacts);
     this.asked.delete(frame);
-    this.frames.set(frame, {poses, positions, forces});
+    this.frames.set(frame, {poses, positions, forces, reactions: reactionsOf(part(3 * joints))});
     const most = Math.max(2 * kAhead, Math.floor(kKept / Math.max(1, buffer.byteLength)));
     for (const old of this.frames.keys()) {
       if (this.frames.size <= most) break;
@@ -105,6 +116,10 @@ export class LiveRecording extends Recording {
 
   contacts(frame) {
     return this.frames.get(frame) ?? {positions: [], forces: []};
+  }
+
+  reactions(frame) {
+    return this.frames.get(frame)?.reactions ?? kNoReactions;
   }
 }
 

@@ -22,7 +22,8 @@ class Viewer {
   constructor(recording) {
     this.recording = recording;
     this.selected = this.hovered = -1;
-    this.on = {contacts: false, forces: false, joints: false, names: false, panel: window.innerWidth > 760, loop: true,
+    this.on = {contacts: false, forces: false, joints: false, frames: false, limits: false, reactions: false,
+               names: false, panel: window.innerWidth > 760, loop: true,
                follow: false, theme: window.matchMedia('(prefers-color-scheme: light)').matches, tail: recording.live === true};
     this.radii = bodyRadii(recording);
     this.motion = new Motion(recording);
@@ -32,7 +33,7 @@ class Viewer {
     turn.setFromUnitVectors(new THREE.Vector3(...recording.up).normalize(), new THREE.Vector3(0, 1, 0));
     this.stage = new Stage(this.interface.view, recording, sceneBox(recording, this.radii, turn));
     this.bodies = new Bodies(recording);
-    this.marks = new Marks(recording, this.stage.radius);
+    this.marks = new Marks(recording, this.stage.radius, this.radii);
     this.labels = new Labels(this.interface.overlay, recording, this.radii);
     this.stage.world.add(this.bodies.group, this.marks.group);
     this.bodies.place(this.motion.now);
@@ -113,8 +114,18 @@ class Viewer {
     this.interface.showTime(this.player.time, motion.frame);
     const frame = motion.frame, kept = recording.contactsKept[frame], all = recording.contactsAll[frame];
     const some = kept < all ? `the strongest ${kept} of ${all}` : `${all}`;
-    const text = this.on.contacts || this.on.forces ? `${some} contact points` : '';
+    const parts = [];
+    if (this.on.contacts || this.on.forces) parts.push(`${some} contact points`);
+    if (this.on.reactions) parts.push(`joint forces up to ${withUnit(this.strongestReaction(frame), 'N')}`);
+    const text = parts.join('  ·  ');
     if (this.interface.note.textContent !== text) this.interface.note.textContent = text;
+  }
+
+  strongestReaction(frame) {
+    const {forces} = this.recording.reactions(frame);
+    let most = 0;
+    for (let i = 0; i < forces.length; i += 3) most = Math.max(most, Math.hypot(forces[i], forces[i + 1], forces[i + 2]));
+    return most;
   }
 
   drawLabels() {
@@ -189,6 +200,13 @@ function publish(viewer) {
     has: (frame) => recording.has(frame),
     get framesHeld() { return recording.frames?.size ?? recording.frameCount; },
     get pathLines() { return viewer.marks.path.object.geometry.instanceCount; },
+    /// Lines that show of joints: axes of frames, limits, where the joint is between them, forces.
+    jointLines: () => {
+      const {joints} = viewer.marks, count = (segments) => segments.object.geometry.instanceCount;
+      return {axes: joints.axes.reduce((sum, segments) => sum + count(segments), 0), limits: count(joints.limits),
+              pointers: count(joints.pointers), forces: count(joints.forces)};
+    },
+    plots: () => viewer.interface.plots.map(({name, high}) => ({name, high})),
     meshes: () => viewer.bodies.sets.map(({mesh, bodies}) => ({
       name: mesh.name, count: bodies.length, triangles: (mesh.geometry.index ?? mesh.geometry.attributes.position).count / 3,
       transparent: mesh.material.transparent})),

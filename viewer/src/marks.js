@@ -1,7 +1,8 @@
 // Contact points, force lines, joints and the selected body's path.
 import * as THREE from 'three';
 import {placed} from './motion.js';
-import {kWorld} from './recording.js';
+import {isLoose, JointMarks} from './joints.js';
+import {kNoReactions, kWorld} from './recording.js';
 import {Dots, Segments} from './segments.js';
 
 const kPathPoints = 3000;
@@ -22,17 +23,18 @@ function forceScale(recording, radius) {
 }
 
 export class Marks {
-  constructor(recording, radius) {
+  constructor(recording, radius, radii) {
     this.recording = recording;
     this.radius = radius;
-    this.shown = {contacts: false, forces: false, joints: false};
+    this.shown = {contacts: false, forces: false, joints: false, frames: false, limits: false, reactions: false};
     this.contacts = new Dots(0xffc531, 8, 12);
     this.forces = new Segments(0xff5a36, 2, 11);
     this.arms = new Segments(0x27c4e8, 2, 9);
     this.gaps = new Segments(0xff2d6f, 3, 10);
     this.anchors = new Dots(0x27c4e8, 9, 12);
     this.path = new Segments(0xff7a1a, 2, 8);
-    this.all = [this.contacts, this.forces, this.arms, this.gaps, this.anchors, this.path];
+    this.joints = new JointMarks(recording, radius, radii);
+    this.all = [this.contacts, this.forces, this.arms, this.gaps, this.anchors, this.path, ...this.joints.all];
     this.group = new THREE.Group();
     for (const mark of this.all) this.group.add(mark.object);
     this.frame = -1;
@@ -52,7 +54,10 @@ export class Marks {
   update(motion) {
     if (this.frame !== motion.frame) this.updateContacts(motion.frame);
     this.frame = motion.frame;
-    this.updateJoints(motion.now);
+    const {frames, limits, reactions, joints} = this.shown;
+    const state = frames || limits || reactions || joints ? this.recording.reactions(motion.frame) : kNoReactions;
+    this.updateJoints(motion.now, state);
+    this.joints.update(this.shown, motion.now, state);
   }
 
   updateContacts(frame) {
@@ -75,21 +80,22 @@ export class Marks {
     return this.forces.set(lines, positions.length / 3);
   }
 
-  updateJoints(poses) {
-    const joints = this.shown.joints ? this.recording.joints : [];
-    const arms = new Float32Array(12 * joints.length), gaps = new Float32Array(6 * joints.length);
-    const at = [[0, 0, 0], [0, 0, 0]];
-    joints.forEach((joint, i) => {
-      [joint.a, joint.b].forEach(({body, anchor}, side) => {
-        const end = body === kWorld ? anchor : placed(poses, body, anchor, at[side]);
-        gaps.set(end, 6 * i + 3 * side);
-        arms.set(end, 12 * i + 6 * side);
-        arms.set(body === kWorld ? end : poses.subarray(7 * body, 7 * body + 3), 12 * i + 6 * side + 3);
+  /// Those that are enabled: an arm from each body's origin, and what lies between the two anchors.
+  updateJoints(poses, reactions) {
+    const joints = this.shown.joints ? this.recording.joints.filter((_, i) => !reactions.off(i)) : [];
+    const arms = [], gaps = [], anchors = [], at = [[0, 0, 0], [0, 0, 0]];
+    for (const joint of joints) {
+      const ends = [joint.a, joint.b].map(
+          ({body, anchor}, side) => (body === kWorld ? anchor : placed(poses, body, anchor, at[side])));
+      [joint.a, joint.b].forEach(({body}, side) => {
+        if (body !== kWorld) arms.push(...ends[side], ...poses.subarray(7 * body, 7 * body + 3));
       });
-    });
-    this.arms.set(arms, 2 * joints.length);
-    this.gaps.set(gaps, joints.length);
-    this.anchors.set(gaps, 2 * joints.length);
+      (isLoose(joint) ? arms : gaps).push(...ends[0], ...ends[1]);
+      anchors.push(...ends[0], ...ends[1]);
+    }
+    this.arms.set(Float32Array.from(arms), arms.length / 6);
+    this.gaps.set(Float32Array.from(gaps), gaps.length / 6);
+    this.anchors.set(Float32Array.from(anchors), anchors.length / 3);
   }
 
   /// The way of a body's origin through the whole recording; -1 clears it.

@@ -20,17 +20,17 @@ function tickStep(span) {
 }
 
 export class Plot {
-  constructor(make, {title, unit, color, times, values, onSeek}) {
-    Object.assign(this, {unit, color, times, values, logarithmic: false});
+  constructor(make, {name, title, unit, color, times, values, onSeek}) {
+    Object.assign(this, {name, unit, color, times, values, logarithmic: false});
     this.value = make('output', {class: 'value'});
     this.logButton = make('button', {class: 'tiny', type: 'button', title: 'Logarithmic scale', text: 'log'});
     this.canvas = make('canvas', {role: 'img', 'aria-label': `${title} against time`});
     this.cursor = make('div', {class: 'cursor'});
     const box = make('div', {class: 'plotBox'}, this.canvas, this.cursor);
     const swatch = make('i', {class: 'swatch', style: `background:${color}`});
-    const name = make('span', {}, swatch, make('span', {text: title}));
+    const heading = make('span', {}, swatch, make('span', {text: title}));
     this.element = make('figure', {class: 'plot'},
-                        make('figcaption', {}, name, this.logButton, this.value), box);
+                        make('figcaption', {}, heading, this.logButton, this.value), box);
     this.logButton.addEventListener('click', () => {
       this.logarithmic = !this.logarithmic;
       this.logButton.setAttribute('aria-pressed', this.logarithmic);
@@ -46,7 +46,7 @@ export class Plot {
       seek(event);
     });
     box.addEventListener('pointermove', (event) => event.buttons & 1 && seek(event));
-    this.left = 44;
+    this.left = 56;
     this.right = 8;
     this.measure();
   }

@@ -1,8 +1,13 @@
 // Reads what page.cpp wrote: the JSON head and the frames' bytes.
 import {gridSurface} from './shapes.js';
+import * as THREE from 'three';
 
 const kPoseBytes = 15;
 const kContactBytes = 13;
+const kJointBytes = 4;
+const kJointOff = 65535;
+/// One number for each frame, in the order in which they are sent.
+export const kFigures = ['energy', 'penetration', 'gap', 'excess', 'excessAngle'];
 export const kKinds =
     ['sphere', 'capsule', 'box', 'plane', 'cylinder', 'cone', 'ellipsoid', 'hull', 'mesh', 'field'];
 export const kWorld = 0xffffffff;
@@ -32,6 +37,20 @@ function unpackRotation(low, high, out, at) {
   else [out[at], out[at + 1], out[at + 2], out[at + 3]] = [b, c, d, a];
 }
 
+/// A direction in two bytes and a size in two.
+function unpackForce(bytes, p, out, at) {
+  const size = bytes[p + 2] | (bytes[p + 3] << 8);
+  if (size === 0 || size === kJointOff) return;
+  let u = ((bytes[p] << 24) >> 24) / 127, v = ((bytes[p + 1] << 24) >> 24) / 127;
+  const w = 1 - Math.abs(u) - Math.abs(v);
+  if (w < 0) [u, v] = [(1 - Math.abs(v)) * (u < 0 ? -1 : 1), (1 - Math.abs(u)) * (v < 0 ? -1 : 1)];
+  const force = 2 ** ((size - 1) / 1024 - 20) / Math.hypot(u, v, w);
+  out.set([u * force, v * force, w * force], at);
+}
+
+/// Where no frame says what joints did.
+export const kNoReactions = {forces: new Float32Array(0), off: () => false};
+
 export class Recording {
   constructor(head) {
     this.title = head.title || 'AVBD';
@@ -47,7 +66,8 @@ export class Recording {
     this.surfaces = head.surfaces.map((surface) => this.readSurface(surface));
     this.shapes = this.readShapes(head);
     this.joints = this.readJoints(head);
-    for (const name of ['energy', 'penetration', 'gap']) this[name] = numbers(Float32Array, head[name]);
+    this.jointStates = head.jointStates ? numbers(Uint8Array, head.jointStates)[0] === 1 : this.joints.length > 0;
+    for (const name of kFigures) this[name] = numbers(Float32Array, head[name]);
     this.times = numbers(Float64Array, head.times);
     this.contactsAll = numbers(Uint32Array, head.contactsAll);
     this.contactsKept = numbers(Uint32Array, head.contactsKept);
@@ -88,17 +108,33 @@ export class Recording {
     return {positions: numbers(Float32Array, surface.vertices), indices: numbers(Uint32Array, surface.triangles)};
   }
 
+  /// What is known of joints beyond their anchors; nothing in recordings of an older version.
+  readJointForms(head) {
+    if (!head.jointTypes) return [];
+    const free = numbers(Uint8Array, head.jointFree);
+    const limits = numbers(Float32Array, head.jointLimits), cones = numbers(Float32Array, head.jointCones);
+    return Array.from(numbers(Uint8Array, head.jointTypes),
+                      (type, i) => ({type, name: head.jointNames[i], free: free[i],
+                                     limits: limits.subarray(12 * i, 12 * i + 12),
+                                     cone: Array.from(cones.subarray(2 * i, 2 * i + 2))}));
+  }
+
   readJoints(head) {
+    const forms = this.readJointForms(head);
     const bodies = numbers(Uint32Array, head.jointBodies);
     const anchors = numbers(Float64Array, head.jointAnchors);
+    const rotations = head.jointTypes ? numbers(Float32Array, head.jointRotations) : undefined;
     const joints = [];
     for (let i = 0; i < bodies.length / 2; ++i) {
       const ends = [0, 1].map((side) => {
         const body = bodies[2 * i + side];
         const anchor = Array.from(anchors.subarray(6 * i + 3 * side, 6 * i + 3 * side + 3));
-        return {body, anchor: body === kWorld ? anchor.map((value, k) => value - this.origin[k]) : anchor};
+        const [w, x, y, z] = rotations?.subarray(8 * i + 4 * side, 8 * i + 4 * side + 4) ?? [1, 0, 0, 0];
+        const turn = new THREE.Quaternion(x, y, z, w);
+        if (!(turn.lengthSq() > 1e-6) || !Number.isFinite(turn.lengthSq())) turn.identity();
+        return {body, turn: turn.normalize(), anchor: body === kWorld ? anchor.map((value, k) => value - this.origin[k]) : anchor};
       });
-      joints.push({a: ends[0], b: ends[1]});
+      joints.push({a: ends[0], b: ends[1], name: '', free: 0, limits: [], cone: [], ...forms[i]});
     }
     return joints;
   }
@@ -112,9 +148,14 @@ export class Recording {
       let offset = 0;
       for (const end = Number(element.dataset.end); frame < end; ++frame) {
         this.places.push({bytes, offset});
-        offset += kPoseBytes * this.moving.length + kContactBytes * this.contactsKept[frame];
+        offset += this.contactsFrom() + kContactBytes * this.contactsKept[frame];
       }
     }
+  }
+
+  /// Of a frame's bytes.
+  contactsFrom() {
+    return kPoseBytes * this.moving.length + (this.jointStates ? kJointBytes * this.joints.length : 0);
   }
 
   /// Whether poses and contacts of a frame are here.
@@ -165,22 +206,26 @@ export class Recording {
     const count = this.contactsKept[frame];
     const {bytes, offset} = this.places[frame];
     const positions = new Float32Array(3 * count), forces = new Float32Array(3 * count);
-    let p = offset + kPoseBytes * this.moving.length;
+    let p = offset + this.contactsFrom();
     for (let i = 0; i < count; ++i, p += kContactBytes) {
       for (let axis = 0; axis < 3; ++axis) {
         const code = bytes[p + 3 * axis] | (bytes[p + 3 * axis + 1] << 8) | (bytes[p + 3 * axis + 2] << 16);
         const [low, step] = [this.contactRange[2 * axis], this.contactRange[2 * axis + 1]];
         positions[3 * i + axis] = low - this.origin[axis] + code * step;
       }
-      const size = bytes[p + 11] | (bytes[p + 12] << 8);
-      if (size === 0) continue;
-      let u = ((bytes[p + 9] << 24) >> 24) / 127, v = ((bytes[p + 10] << 24) >> 24) / 127;
-      const w = 1 - Math.abs(u) - Math.abs(v);
-      if (w < 0) [u, v] = [(1 - Math.abs(v)) * (u < 0 ? -1 : 1), (1 - Math.abs(u)) * (v < 0 ? -1 : 1)];
-      const force = 2 ** ((size - 1) / 1024 - 20) / Math.hypot(u, v, w);
-      forces.set([u * force, v * force, w * force], 3 * i);
+      unpackForce(bytes, p + 9, forces, 3 * i);
     }
     return {positions, forces};
+  }
+
+  /// What joints did at a frame: forces on their B, 3 numbers each, and which are not enabled.
+  reactions(frame) {
+    if (!this.jointStates) return kNoReactions;
+    const {bytes, offset} = this.places[frame];
+    const forces = new Float32Array(3 * this.joints.length), from = offset + kPoseBytes * this.moving.length;
+    this.joints.forEach((_, i) => unpackForce(bytes, from + kJointBytes * i, forces, 3 * i));
+    const off = (i) => bytes[from + kJointBytes * i + 2] === 255 && bytes[from + kJointBytes * i + 3] === 255;
+    return {forces, off};
   }
 
   /// The last frame at or before a time, and how far towards the next one it is.

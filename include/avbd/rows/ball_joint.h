@@ -2,7 +2,7 @@
 //
 // C = xA + rA - xB - rB - alpha C_start, with the arms r turned by the motion of the step (nonlinear).
 // J: each arm is a blend (1 - tau) r_start + tau r_end. tau = 0 is SHAKE: symplectic, unstable under heavy loads;
-// tau = 1 is fully implicit and eats energy. See docs/method.md.
+// tau = 1 is fully implicit and eats energy. See docs/method.md. Bodies that turn far let it grow (armBlendAt).
 // Left out: the derivative of J (the solver adds the geometric stiffness).
 #pragma once
 
@@ -13,16 +13,17 @@ namespace avbd::rows {
 template <class R>
 struct BallJoint {
   static constexpr int kRows = 3;
-  V3<R> rA, rB;  ///< centre of mass to anchor at the start of the step, world axes
-  V3<R> bias;    ///< (1 - alpha) times the gap at the start
-  R tau;
-  R k;           ///< [N/m]
-  V3<R> lambda;  ///< [N]
+  V3<R> rA, rB;   ///< centre of mass to anchor at the start of the step, world axes
+  V3<R> bias;     ///< (1 - alpha) times the gap at the start
+  R tau, adapts;  ///< armBlendAt()
+  R k;            ///< [N/m]
+  V3<R> lambda;   ///< [N]
 
   template <class Sink>
   AVBD_INLINE void rows(const Twist<R>& dA, const Twist<R>& dB, Sink& sink) {
     const V3<R> endA = rotate(expQuat(dA.ang), rA), endB = rotate(expQuat(dB.ang), rB);
-    sink.arms(rA + (endA - rA) * tau, rB + (endB - rB) * tau);
+    const R blend = armBlendAt(tau, adapts, dA, dB);
+    sink.arms(rA + (endA - rA) * blend, rB + (endB - rB) * blend);
     const V3<R> C = bias + (dA.lin - dB.lin) + (endA - rA) - (endB - rB);
     const R o = zero<R>(), one = splat<R>(1), inf = splat<R>(kInfinity);
     const V3<R> none{o, o, o};

@@ -12,9 +12,12 @@
 // turning along. Axes and arms in J are a blend (1 - tau) start + tau end, as the ball joint's are, for the same
 // reason.
 //
-// Rows of an axis: the lock (C = q - held, hard), or a lower and an upper limit (hard, one-sided), a drive
-// (C = q - target, of finite stiffness, bounded), and friction (C = q - q_start, bounded on both sides).
-// Left out: the derivative of J.
+// Rows of an axis: the lock (C = q - held, hard), or a lower and an upper limit (hard, one-sided; one row where they
+// meet), a drive (C = q - target, of finite stiffness, bounded), friction (C = q - q_start, bounded on both sides),
+// what resists by itself (spring, damper, and the inertia that turns with the coordinate, k = a / h^2 about where it
+// would go unhindered), and a given force. Rows of the joint: the cone C = u (n - 1), n = |(sy / ly, sz / lz)|,
+// one-sided, u what makes it an angle where the step starts; and the turn to a rotation T, C = -log(q_A T q_B^-1) along
+// the axes that A had at the start. Left out: the derivative of J.
 #pragma once
 
 #include <avbd/rows/row.h>
@@ -26,6 +29,8 @@ namespace avbd::rows {
 /// Which rows a D6 joint has: bits 0 .. 2 linear x, y, z, bits 3 .. 5 twist, swing y, swing z.
 struct D6Axes {
   uint8_t locked = 0, limited = 0, driven = 0, rubbing = 0;
+  uint8_t frozen = 0, passive = 0, forced = 0;  ///< frozen: held at one value by limits that meet
+  bool cone = false, slerp = false;
   constexpr bool anglesLocked() const { return (locked >> 3) == 7; }
 };
 
@@ -38,8 +43,54 @@ struct D6Axis {
   R k, s;                               ///< of lock and limits: stiffness in use and share, 1 where hard
   R target, kDrive, sDrive, driveMost;  ///< of a drive: where C is 0, stiffness in use, share, bound
   R kFriction, frictionMost;
-  R lambda, lambdaLower, lambdaUpper, lambdaDrive, lambdaFriction;
+  R rest, kPassive, sPassive;  ///< of what resists by itself
+  R force;                     ///< given
+  R lambda, lambdaLower, lambdaUpper, lambdaDrive, lambdaFriction, lambdaPassive, lambdaForce;
 };
+
+/// A swing cone.
+template <class R>
+struct D6Cone {
+  R inverseY, inverseZ;  ///< 1 / limit, 0 of a side without one
+  R upper;               ///< n at which the row begins to push
+  R scale;               ///< u
+  R k, s, lambda;
+};
+
+/// A turn to a rotation.
+template <class R>
+struct D6Slerp {
+  Q4<R> rotation;
+  V3<R> target;  ///< where C is zero, along A's axes at the start
+  R k, s, most;
+  V3<R> lambda;
+};
+
+/// A joint's coordinates and their J on A, about the arms.
+template <class R>
+struct D6Measure {
+  R q[6];  ///< unwrapped
+  V3<R> lin[6], ang[6];
+  V3<R> armA, armB;
+  R y, z;            ///< components of b1 along A's axes: sines of the swing
+  V3<R> angY, angZ;  ///< J of -z and y
+};
+
+/// Calls emit(C, k, s, lower, upper, lambda) for each row of coordinate i, which stands at q.
+template <class R, class Emit>
+AVBD_INLINE void axisRows(const D6Axes& axes, int i, D6Axis<R>& x, const R& q, Emit&& emit) {
+  const R inf = splat<R>(kInfinity), one = splat<R>(1), o = zero<R>();
+  if ((axes.locked | axes.frozen) >> i & 1) emit(q - x.held, x.k, one, -inf, inf, x.lambda);
+  if (axes.locked >> i & 1) return;
+  if (axes.limited >> i & 1) {
+    emit(q - x.lower, x.k, x.s, -inf, o, x.lambdaLower);
+    emit(q - x.upper, x.k, x.s, o, inf, x.lambdaUpper);
+  }
+  if (axes.driven >> i & 1) emit(q - x.target, x.kDrive, x.sDrive, -x.driveMost, x.driveMost, x.lambdaDrive);
+  if (axes.rubbing >> i & 1) emit(q - x.start, x.kFriction, one, -x.frictionMost, x.frictionMost, x.lambdaFriction);
+  if (axes.passive >> i & 1) emit(q - x.rest, x.kPassive, x.sPassive, -inf, inf, x.lambdaPassive);
+  if (axes.forced >> i & 1) emit(o, o, o, -x.force, -x.force, x.lambdaForce);
+}
 
 /// Angle within half a turn of zero that differs from x by whole turns.
 template <class R>
@@ -52,45 +103,65 @@ struct D6Joint {
   V3<R> offset;      ///< from frame A's origin to frame B's at the start of the step, world axes
   V3<R> armA, armB;  ///< centre of mass to frame A's and to frame B's origin
   Q4<R> qA, qB;      ///< frames to world at the start of the step
-  R tau;
-  R rawTwist;     ///< twist at the start as the rows see it, within half a turn
-  V3<R> logHeld;  ///< of three locked angles: what C leaves uncorrected
+  R tau, adapts;     ///< armBlendAt()
+  R rawTwist;        ///< twist at the start as the rows see it, within half a turn
+  V3<R> logHeld;     ///< of three locked angles: what C leaves uncorrected
   D6Axis<R> axis[6];
+  D6Cone<R> cone;
+  D6Slerp<R> slerp;
 
   /// The coordinates after the motions, unwrapped.
   AVBD_INLINE void coordinates(const Twist<R>& dA, const Twist<R>& dB, R (&q)[6]) const {
+    coordinatesAt(poseAfter(dA, dB), q);
+  }
+
+  /// The same with J.
+  AVBD_INLINE D6Measure<R> measure(const Twist<R>& dA, const Twist<R>& dB) const {
     const Pose6 end = poseAfter(dA, dB);
-    for (int i = 0; i < 3; ++i) q[i] = dot(end.a[i], end.offset);
-    const V3<R> b = end.inA();
-    const R g = swingFactor(b.x);
-    q[3] = axis[3].start + withinHalfTurn(twistOf(end) - rawTwist);
-    q[4] = -(g * b.z);
-    q[5] = g * b.y;
+    const Pose6 j = blended(end, armBlendAt(tau, adapts, dA, dB));
+    D6Measure<R> m;
+    coordinatesAt(end, m.q);
+    m.armA = j.armA, m.armB = j.armB;
+    const V3<R> none = zeroV3<R>(), b = end.inA(), atJ = j.inA();
+    m.y = b.y, m.z = b.z;
+    for (int i = 0; i < 3; ++i) m.lin[i] = -j.a[i], m.ang[i] = none, m.lin[3 + i] = none;
+    const R g = swingFactor(atJ.x), slope = swingSlope(atJ.x, g);
+    const V3<R> across = cross(j.b1, j.a[0]);
+    m.ang[3] = -((j.a[0] + j.b1) * (1.0f / max(1.0f + atJ.x, splat<R>(1e-3f))));
+    m.angY = cross(j.b1, j.a[2]), m.angZ = -cross(j.b1, j.a[1]);
+    m.ang[4] = m.angY * g + across * (atJ.z * slope);
+    m.ang[5] = m.angZ * g - across * (atJ.y * slope);
+    return m;
   }
 
   template <class Sink>
   AVBD_INLINE void rows(const D6Axes& axes, const Twist<R>& dA, const Twist<R>& dB, Sink& sink) {
-    const Pose6 end = poseAfter(dA, dB);
-    const Pose6 j = blended(end);
-    sink.arms(j.armA, j.armB);
-    R q[6];
-    coordinates(dA, dB, q);
-    for (int i = 0; i < 3; ++i) emitAxis(axes, i, q[i], -j.a[i], zeroV3<R>(), sink);
+    D6Measure<R> m = measure(dA, dB);
+    sink.arms(m.armA, m.armB);
+    for (int i = 0; i < 3; ++i) emitAxis(axes, i, m, sink);
     if (axes.anglesLocked()) {
       emitLockedAngles(dA, dB, sink);
       return;
     }
-    const V3<R> b = end.inA(), atJ = j.inA();
-    const R g = swingFactor(atJ.x), slope = swingSlope(atJ.x, g);
-    const V3<R> across = cross(j.b1, j.a[0]);
-    const V3<R> twist = (j.a[0] + j.b1) * (1.0f / max(1.0f + atJ.x, splat<R>(1e-3f)));
-    emitAxis(axes, 3, q[3], zeroV3<R>(), -twist, sink);
     // A locked swing is measured by its sine: no division, and right where it is held.
-    const bool lockY = axes.locked >> 4 & 1, lockZ = axes.locked >> 5 & 1;
-    const V3<R> swingY = lockY ? cross(j.a[2], j.b1) : -(cross(j.b1, j.a[2]) * g) - across * (atJ.z * slope);
-    const V3<R> swingZ = lockZ ? cross(j.b1, j.a[1]) : cross(j.b1, j.a[1]) * g + across * (atJ.y * slope);
-    emitAxis(axes, 4, lockY ? -b.z : q[4], zeroV3<R>(), -swingY, sink);
-    emitAxis(axes, 5, lockZ ? b.y : q[5], zeroV3<R>(), -swingZ, sink);
+    if (axes.locked >> 4 & 1) m.q[4] = -m.z, m.ang[4] = m.angY;
+    if (axes.locked >> 5 & 1) m.q[5] = m.y, m.ang[5] = m.angZ;
+    for (int i = 3; i < 6; ++i) emitAxis(axes, i, m, sink);
+    if (axes.cone) emitCone(m, sink);
+    if (axes.slerp) emitSlerp(dA, dB, sink);
+  }
+
+  /// n of the cone.
+  AVBD_INLINE R coneMeasure(const R& y, const R& z) const {
+    const R ny = y * cone.inverseY, nz = z * cone.inverseZ;
+    return sqrt(ny * ny + nz * nz);
+  }
+
+  /// C of the turn to a rotation, along A's axes at the start.
+  AVBD_INLINE V3<R> slerpMeasure(const Twist<R>& dA, const Twist<R>& dB) const {
+    const V3<R> C = -logQuat(expQuat(dA.ang) * qA * slerp.rotation * conjugate(expQuat(dB.ang) * qB));
+    const Pose6 start = poseAt(qA, qB);
+    return {dot(start.a[0], C), dot(start.a[1], C), dot(start.a[2], C)};
   }
 
   /// Angle s over its sine, from the cosine.
@@ -108,6 +179,15 @@ struct D6Joint {
     Q4<R> qA, qB;
     AVBD_INLINE V3<R> inA() const { return {dot(a[0], b1), dot(a[1], b1), dot(a[2], b1)}; }
   };
+
+  AVBD_INLINE void coordinatesAt(const Pose6& end, R (&q)[6]) const {
+    for (int i = 0; i < 3; ++i) q[i] = dot(end.a[i], end.offset);
+    const V3<R> b = end.inA();
+    const R g = swingFactor(b.x);
+    q[3] = axis[3].start + withinHalfTurn(twistOf(end) - rawTwist);
+    q[4] = -(g * b.z);
+    q[5] = g * b.y;
+  }
 
   AVBD_INLINE static R swingSlope(const R& c, const R& g) {
     const R squared = (1.0f - c) * (1.0f + c);
@@ -147,12 +227,12 @@ struct D6Joint {
     return p;
   }
   /// What J is taken from.
-  AVBD_INLINE Pose6 blended(const Pose6& end) const {
+  AVBD_INLINE Pose6 blended(const Pose6& end, const R& blend) const {
     Pose6 p = startPose();
-    for (int i = 0; i < 3; ++i) p.a[i] += (end.a[i] - p.a[i]) * tau;
-    p.b1 += (end.b1 - p.b1) * tau;
-    p.armA += (end.armA - p.armA) * tau;
-    p.armB += (end.armB - p.armB) * tau;
+    for (int i = 0; i < 3; ++i) p.a[i] += (end.a[i] - p.a[i]) * blend;
+    p.b1 += (end.b1 - p.b1) * blend;
+    p.armA += (end.armA - p.armA) * blend;
+    p.armB += (end.armB - p.armB) * blend;
     return p;
   }
 
@@ -166,23 +246,32 @@ struct D6Joint {
       sink.emit(PairRow<R>{c[i], none, -unit[i], axis[3 + i].k, one, -inf, inf}, axis[3 + i].lambda);
   }
 
-  /// All rows of one coordinate; lin and ang: J on A.
   template <class Sink>
-  AVBD_INLINE void emitAxis(const D6Axes& axes, int i, const R& q, const V3<R>& lin, const V3<R>& ang, Sink& sink) {
-    D6Axis<R>& x = axis[i];
-    const R inf = splat<R>(kInfinity), one = splat<R>(1);
-    if (axes.locked >> i & 1) {
-      sink.emit(PairRow<R>{q - x.held, lin, ang, x.k, one, -inf, inf}, x.lambda);
-      return;
-    }
-    if (axes.limited >> i & 1) {
-      sink.emit(PairRow<R>{q - x.lower, lin, ang, x.k, x.s, -inf, zero<R>()}, x.lambdaLower);
-      sink.emit(PairRow<R>{q - x.upper, lin, ang, x.k, x.s, zero<R>(), inf}, x.lambdaUpper);
-    }
-    if (axes.driven >> i & 1)
-      sink.emit(PairRow<R>{q - x.target, lin, ang, x.kDrive, x.sDrive, -x.driveMost, x.driveMost}, x.lambdaDrive);
-    if (axes.rubbing >> i & 1)
-      sink.emit(PairRow<R>{q - x.start, lin, ang, x.kFriction, one, -x.frictionMost, x.frictionMost}, x.lambdaFriction);
+  AVBD_INLINE void emitCone(const D6Measure<R>& m, Sink& sink) {
+    const R n = coneMeasure(m.q[4], m.q[5]), share = cone.scale / max(n, splat<R>(1e-6f));
+    const R y = m.q[4] * cone.inverseY * cone.inverseY * share, z = m.q[5] * cone.inverseZ * cone.inverseZ * share;
+    const V3<R> ang = m.ang[4] * y + m.ang[5] * z;
+    const R o = zero<R>(), inf = splat<R>(kInfinity);
+    sink.emit(PairRow<R>{cone.scale * (n - cone.upper), zeroV3<R>(), ang, cone.k, cone.s, o, inf}, cone.lambda);
+  }
+
+  template <class Sink>
+  AVBD_INLINE void emitSlerp(const Twist<R>& dA, const Twist<R>& dB, Sink& sink) {
+    const V3<R> C = slerpMeasure(dA, dB) - slerp.target;
+    const Pose6 start = poseAt(qA, qB);
+    const R c[3] = {C.x, C.y, C.z};
+    R* lambda[3] = {&slerp.lambda.x, &slerp.lambda.y, &slerp.lambda.z};
+    for (int i = 0; i < 3; ++i)
+      sink.emit(PairRow<R>{c[i], zeroV3<R>(), -start.a[i], slerp.k, slerp.s, -slerp.most, slerp.most}, *lambda[i]);
+  }
+
+  /// All rows of one coordinate.
+  template <class Sink>
+  AVBD_INLINE void emitAxis(const D6Axes& axes, int i, const D6Measure<R>& m, Sink& sink) {
+    axisRows(axes, i, axis[i], m.q[i],
+             [&](const R& C, const R& k, const R& s, const R& lower, const R& upper, R& lambda) {
+               sink.emit(PairRow<R>{C, m.lin[i], m.ang[i], k, s, lower, upper}, lambda);
+             });
   }
 };
 

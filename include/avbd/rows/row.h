@@ -41,4 +41,17 @@ AVBD_INLINE Twist<R> relativeMotion(const Twist<R>& dA, const Twist<R>& dB, cons
   return {dA.lin + cross(dA.ang, armA) - dB.lin - cross(dB.ang, armB), dA.ang - dB.ang};
 }
 
+/// [rad] that a body may turn in a step before joints let their arms in J follow; at twice that they are halfway.
+inline constexpr float kFreeTurn = 0.3f;
+
+/// How far the arms in a joint's J go from the start of the step to its end: tau, or, where `adapts` is 1, more if a
+/// body turns far. J of the start leads an iteration nowhere near a radian; halfway it is the secant of the turn, but
+/// for a twelfth of its square.
+template <class R>
+AVBD_INLINE R armBlendAt(const R& tau, const R& adapts, const Twist<R>& dA, const Twist<R>& dB) {
+  const R turn = sqrt(max(dot(dA.ang, dA.ang), dot(dB.ang, dB.ang)));
+  const R beyond = clamp((turn - kFreeTurn) * (1 / kFreeTurn), 0.0f, 1.0f);
+  return max(tau, beyond * 0.5f * adapts);
+}
+
 }  // namespace avbd::rows

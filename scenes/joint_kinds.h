@@ -1,0 +1,30 @@
+// The kinds of joints that acceptance tries one by one.
+#pragma once
+
+#include "scenes/build.h"
+
+namespace avbd::scenes {
+
+enum class JointKind : uint8_t { Fixed, Spherical, Revolute, Prismatic, D6, Distance, Rope, Cone, Pulley, Universal };
+
+inline constexpr JointKind kJointKinds[] = {
+    JointKind::Fixed,    JointKind::Spherical, JointKind::Revolute, JointKind::Prismatic, JointKind::D6,
+    JointKind::Distance, JointKind::Rope,      JointKind::Cone,     JointKind::Pulley,    JointKind::Universal};
+
+const char* nameOf(JointKind kind);
+/// Joins points that may stand apart: distance, rope and pulley.
+bool spans(JointKind kind);
+
+/// Where a joint stands in the world: its points on either body (the same one, but where it spans) and its frame.
+struct Spot {
+  Vec3d a, b;
+  Quat frame{};
+};
+
+inline constexpr double kConeAngle = 3.14159265358979323846 / 6;
+
+/// A null body is the world. Revolute turns about the frame's x axis, prismatic slides along it, cone and universal
+/// point along it. The D6 turns about its y axis alone, as a swing.
+JointId connect(Build& build, JointKind kind, BodyId a, BodyId b, const Spot& at);
+
+}  // namespace avbd::scenes

@@ -1,0 +1,22 @@
+// Joints that break (break_joints.h).
+#include "step/break_joints.h"
+
+#include "world/joints.h"
+
+namespace avbd {
+
+void breakJoints(WorldData& world) {
+  world.jointIds.forEach([&](uint32_t slot) {
+    JointData& joint = world.joints[slot];
+    const bool beyond = joint.enabled && (length(joint.reaction.force) > joint.breaks.force ||
+                                          length(joint.reaction.torque) > joint.breaks.torque);
+    if (beyond && joint.strained) {
+      world.events.breaks.push_back({world.jointIds.id(slot), joint.reaction});
+      setEnabled(world, slot, false);
+      return;
+    }
+    joint.strained = beyond;
+  });
+}
+
+}  // namespace avbd
