@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "io/record/source.h"
 #include "scenes/measure.h"
 
 namespace avbd::cli {
@@ -20,31 +21,6 @@ void raise(double& most, double value) {
   if (!(value <= most)) most = value;
 }
 
-void measureLimit(const World& world, JointId id, JointAxis axis, const JointLimit& limit, RunFigures& f) {
-  const double q = world.coordinate(id, axis).position;
-  const double excess = std::max(static_cast<double>(limit.lower) - q, q - static_cast<double>(limit.upper));
-  raise(axis < JointAxis::Twist ? f.limitExcessMax : f.limitExcessAngleMax, excess);
-}
-
-void measureLimits(const World& world, JointId id, RunFigures& f) {
-  switch (world.type(id)) {
-    case JointType::Hinge:
-      return measureLimit(world, id, JointAxis::Twist, world.hingeJoint(id).limit, f);
-    case JointType::Slider:
-      return measureLimit(world, id, JointAxis::LinearX, world.sliderJoint(id).limit, f);
-    case JointType::D6: {
-      const D6Joint joint = world.d6Joint(id);
-      for (size_t i = 0; i < joint.axes.size(); ++i) {
-        if (joint.axes[i].motion == AxisMotion::Locked) continue;
-        measureLimit(world, id, static_cast<JointAxis>(i), joint.axes[i].limit, f);
-      }
-      return;
-    }
-    default:
-      return;
-  }
-}
-
 // Gaps that are lengths.
 void measureJoints(const World& world, RunFigures& f) {
   for (const JointId id : world.joints()) {
@@ -53,7 +29,9 @@ void measureJoints(const World& world, RunFigures& f) {
     if (type == JointType::Custom) continue;
     raise(f.jointGapMax, world.gap(id));
     raise(f.jointAngleMax, world.angleError(id));
-    measureLimits(world, id, f);
+    const LimitExcess excess = limitExcess(world, id);
+    raise(f.limitExcessMax, excess.length);
+    raise(f.limitExcessAngleMax, excess.angle);
   }
 }
 

@@ -91,4 +91,25 @@ JointId connect(Build& build, JointKind kind, BodyId a, BodyId b, const Spot& at
   return {};
 }
 
+std::span<const Holding> holdings() {
+  static const Quat kAlongZ = along({0, 0, 1}), kDown = along({0, -1, 0});
+  static const Holding kHoldings[] = {{JointKind::Fixed},
+                                      {JointKind::Spherical},
+                                      {JointKind::Revolute, false, kAlongZ},
+                                      {JointKind::Prismatic},
+                                      {JointKind::D6},
+                                      {JointKind::Distance},
+                                      {JointKind::Rope},
+                                      {JointKind::Cone, false, kDown},
+                                      {JointKind::Pulley},
+                                      {JointKind::Universal, false, kDown},
+                                      {JointKind::Fixed, true},
+                                      {JointKind::Revolute, true},
+                                      {JointKind::Prismatic, true},
+                                      {JointKind::D6, true},
+                                      {JointKind::Cone, true},
+                                      {JointKind::Universal, true, kAlongZ}};
+  return kHoldings;
+}
+
 }  // namespace avbd::scenes

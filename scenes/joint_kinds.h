@@ -1,6 +1,8 @@
 // The kinds of joints that acceptance tries one by one.
 #pragma once
 
+#include <span>
+
 #include "scenes/build.h"
 
 namespace avbd::scenes {
@@ -26,5 +28,15 @@ inline constexpr double kConeAngle = 3.14159265358979323846 / 6;
 /// A null body is the world. Revolute turns about the frame's x axis, prismatic slides along it, cone and universal
 /// point along it. The D6 turns about its y axis alone, as a swing.
 JointId connect(Build& build, JointKind kind, BodyId a, BodyId b, const Spot& at);
+
+/// How a box of 4 kg is held from the world's origin: below it, or with its centre one metre beside it, where the joint
+/// carries a torque too.
+struct Holding {
+  JointKind kind;
+  bool beside = false;
+  Quat frame{};
+};
+/// Each kind below, and those that carry a torque beside too. A cone beside rests on its stop, 30 degrees lower.
+std::span<const Holding> holdings();
 
 }  // namespace avbd::scenes

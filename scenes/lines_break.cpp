@@ -11,31 +11,6 @@ namespace {
 constexpr float kThreshold = 100;           // [N, N m]
 constexpr float kRamp = 20;                 // a second
 constexpr double kSpikeAt = 4, kSpike = 3;  // [s], times the threshold, for one step
-const Quat kAlongZ = along({0, 0, 1}), kDown = along({0, -1, 0});
-
-/// A 4 kg box below the joint, pulled down, or one metre beside it and turned about z.
-struct Load {
-  JointKind kind;
-  bool torque = false;
-  Quat frame{};
-};
-// A cone carries a torque where it rests on its stop.
-const Load kLoads[] = {{JointKind::Fixed},
-                       {JointKind::Spherical},
-                       {JointKind::Revolute, false, kAlongZ},
-                       {JointKind::Prismatic},
-                       {JointKind::D6},
-                       {JointKind::Distance},
-                       {JointKind::Rope},
-                       {JointKind::Cone, false, kDown},
-                       {JointKind::Pulley},
-                       {JointKind::Universal, false, kDown},
-                       {JointKind::Fixed, true},
-                       {JointKind::Revolute, true},
-                       {JointKind::Prismatic, true},
-                       {JointKind::D6, true},
-                       {JointKind::Cone, true},
-                       {JointKind::Universal, true, kAlongZ}};
 
 struct Broken {
   double at = 0;  ///< load at which it broke
@@ -67,27 +42,27 @@ Broken breakIt(World& world, BodyId box, JointId joint, bool torque) {
   return result;
 }
 
-std::vector<Figure> tryBreak(const Settings& settings, const Load& load) {
+std::vector<Figure> tryBreak(const Settings& settings, const Holding& load) {
   WorldDef def;
   def.gravity = {};
   Build build("break", settings, def);
   build.filter(kGhost);
-  const Vec3d at = load.torque ? Vec3d{1, 0, 0} : Vec3d{0, -1, 0};
+  const Vec3d at = load.beside ? Vec3d{1, 0, 0} : Vec3d{0, -1, 0};
   const BodyId box = build.box("box", {0.5f, 0.5f, 0.5f}, at, 4);
   const JointId joint = connect(build, load.kind, {}, box, {{}, spans(load.kind) ? at : Vec3d{}, load.frame});
   JointBreak limits;
-  (load.torque ? limits.torque : limits.force) = kThreshold;
+  (load.beside ? limits.torque : limits.force) = kThreshold;
   build.world().setBreakLimits(joint, limits);
-  const Broken broken = breakIt(build.world(), box, joint, load.torque);
-  const std::string params = std::string("type=") + nameOf(load.kind) + (load.torque ? " by=torque" : " by=force");
-  return {within("breaks_at", broken.at, kThreshold, 0.03, load.torque ? "N m" : "N", params),
+  const Broken broken = breakIt(build.world(), box, joint, load.beside);
+  const std::string params = std::string("type=") + nameOf(load.kind) + (load.beside ? " by=torque" : " by=force");
+  return {within("breaks_at", broken.at, kThreshold, 0.03, load.beside ? "N m" : "N", params),
           holds("bears_a_spike", !broken.bySpike, params + " spike=" + text(kSpike * kThreshold)),
           holds("event", broken.told, params)};
 }
 
 std::vector<Figure> breaks(const Settings& settings) {
   std::vector<Figure> figures;
-  for (const Load& load : kLoads)
+  for (const Holding& load : holdings())
     for (Figure& f : tryBreak(settings, load)) figures.push_back(std::move(f));
   return figures;
 }

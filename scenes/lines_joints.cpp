@@ -10,7 +10,7 @@ namespace avbd::scenes {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-const Quat kAlongZ = along({0, 0, 1}), kDown = along({0, -1, 0});
+const Quat kAlongZ = along({0, 0, 1});
 
 /// A chain along x: its joints' frames, and for sliders a stop on either side.
 struct Chain {
@@ -77,31 +77,6 @@ std::vector<Figure> types(const Settings& settings) {
   return figures;
 }
 
-/// How a box of 4 kg is held from the world's origin: below it, or with its centre one metre beside it, where the joint
-/// carries a torque too.
-struct Holding {
-  JointKind kind;
-  bool beside = false;
-  Quat frame{};
-};
-// A cone that is held beside rests on its stop, 30 degrees lower.
-const Holding kHoldings[] = {{JointKind::Fixed},
-                             {JointKind::Spherical},
-                             {JointKind::Revolute, false, kAlongZ},
-                             {JointKind::Prismatic},
-                             {JointKind::D6},
-                             {JointKind::Distance},
-                             {JointKind::Rope},
-                             {JointKind::Cone, false, kDown},
-                             {JointKind::Pulley},
-                             {JointKind::Universal, false, kDown},
-                             {JointKind::Fixed, true},
-                             {JointKind::Revolute, true},
-                             {JointKind::Prismatic, true},
-                             {JointKind::D6, true},
-                             {JointKind::Cone, true},
-                             {JointKind::Universal, true, kAlongZ}};
-
 std::vector<Figure> hold(const Settings& settings, const Holding& how, double dt) {
   Build build("reaction", settings);
   const Vec3d at = how.beside ? Vec3d{1, 0, 0} : Vec3d{0, -1, 0};
@@ -124,7 +99,7 @@ std::vector<Figure> hold(const Settings& settings, const Holding& how, double dt
 std::vector<Figure> reaction(const Settings& settings) {
   std::vector<Figure> figures;
   for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 120})
-    for (const Holding& how : kHoldings)
+    for (const Holding& how : holdings())
       for (Figure& f : hold(settings, how, dt)) figures.push_back(std::move(f));
   return figures;
 }

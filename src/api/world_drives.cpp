@@ -80,6 +80,11 @@ void setPart(const WorldData& data, D6Axis& axis, Part D6Axis::*part, const Part
   axis = changed;
 }
 
+template <class Part>
+void setCouplingPart(WorldData& data, JointId id, Part D6Axis::*part, const Part& value, const char* call) {
+  setPart(data, freeCoupling(data, id, call), part, value, Path(call), kOfCoupling);
+}
+
 }  // namespace
 
 JointCoordinate World::coordinate(JointId id, JointAxis axis) const {
@@ -106,10 +111,9 @@ void World::setLimit(JointId id, JointAxis axis, const JointLimit& limit) {
 }
 
 void World::setLimit(JointId id, const JointLimit& limit) {
-  if (!isCoupling(impl_->data, id, "World::setLimit"))
-    return setLimit(id, freeAxisOf(impl_->data, id, "World::setLimit"), limit);
-  D6Axis& to = freeCoupling(impl_->data, id, "World::setLimit");
-  setPart(impl_->data, to, &D6Axis::limit, limit, Path("World::setLimit"), kOfCoupling);
+  constexpr const char* kCall = "World::setLimit";
+  if (!isCoupling(impl_->data, id, kCall)) return setLimit(id, freeAxisOf(impl_->data, id, kCall), limit);
+  setCouplingPart(impl_->data, id, &D6Axis::limit, limit, kCall);
 }
 
 void World::setDrive(JointId id, JointAxis axis, const JointDrive& drive) {
@@ -123,10 +127,9 @@ void World::setDrive(JointId id, JointAxis axis, const JointDrive& drive) {
 }
 
 void World::setDrive(JointId id, const JointDrive& drive) {
-  if (!isCoupling(impl_->data, id, "World::setDrive"))
-    return setDrive(id, freeAxisOf(impl_->data, id, "World::setDrive"), drive);
-  D6Axis& to = freeCoupling(impl_->data, id, "World::setDrive");
-  setPart(impl_->data, to, &D6Axis::drive, drive, Path("World::setDrive"), kOfCoupling);
+  constexpr const char* kCall = "World::setDrive";
+  if (!isCoupling(impl_->data, id, kCall)) return setDrive(id, freeAxisOf(impl_->data, id, kCall), drive);
+  setCouplingPart(impl_->data, id, &D6Axis::drive, drive, kCall);
 }
 
 void World::setSpring(JointId id, JointAxis axis, const JointSpring& spring) {
@@ -135,10 +138,9 @@ void World::setSpring(JointId id, JointAxis axis, const JointSpring& spring) {
 }
 
 void World::setSpring(JointId id, const JointSpring& spring) {
-  if (!isCoupling(impl_->data, id, "World::setSpring"))
-    return setSpring(id, freeAxisOf(impl_->data, id, "World::setSpring"), spring);
-  D6Axis& to = freeCoupling(impl_->data, id, "World::setSpring");
-  setPart(impl_->data, to, &D6Axis::spring, spring, Path("World::setSpring"), kOfCoupling);
+  constexpr const char* kCall = "World::setSpring";
+  if (!isCoupling(impl_->data, id, kCall)) return setSpring(id, freeAxisOf(impl_->data, id, kCall), spring);
+  setCouplingPart(impl_->data, id, &D6Axis::spring, spring, kCall);
 }
 
 void World::setSlerp(JointId id, const SlerpDrive& drive) {

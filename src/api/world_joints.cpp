@@ -183,9 +183,10 @@ Coupling World::coupling(JointId id) const {
   const JointData& joint = jointOfType(impl_->data, id, JointType::Coupling, "World::coupling");
   const LinkData& link = impl_->data.links[impl_->data.jointIds.slot(id)];
   Coupling def;
-  for (const LinkTerm& term : link.terms)
-    def.terms.push_back({impl_->data.jointIds.id(term.joint), term.axis, term.factor[0], term.factor[1], term.factor[2],
-                         term.factor[3]});
+  for (const LinkTerm& term : link.terms) {
+    const float* factor = term.curve.factor;
+    def.terms.push_back({impl_->data.jointIds.id(term.joint), term.axis, factor[0], factor[1], factor[2], factor[3]});
+  }
   def.rest = link.rest, def.axis = link.axis;
   def.stiffness = joint.stiffness, def.damping = link.damping, def.userData = joint.userData;
   return def;

@@ -107,7 +107,7 @@ void stamp(const BatchView& view, LinkedJoint& joint) {
   evaluate(joint, view, joint.stamped);
   for (int i = 0; i < joint.stamped.count; ++i) {
     LinkedRow& row = joint.stamped.row[i];
-    const RowForce force = forceOf({row.C, {}, {}, row.k, row.s, row.lower, row.upper}, *row.lambda, false);
+    const RowForce force = forceOf(row);
     row.k = force.k;
     for (int b = 0; b < joint.bodies; ++b) {
       addTwist(view.gradient, joint.row[b], row.j[b] * force.force);
@@ -128,14 +128,19 @@ float couplingMeasure(const LinkedJoint& joint, const BatchView& view, Twist<flo
     const rows::D6Measure<float> m =
         scalar.rows.measure(readTwist(view.d, scalar.rowA), readTwist(view.d, scalar.rowB));
     const double q = static_cast<double>(m.q[term.axis]);
-    const auto f = [&](int power) { return static_cast<double>(term.factor[power - 1]); };
-    sum += q * (f(1) + q * (f(2) + q * (f(3) + q * f(4))));
-    const float slope = static_cast<float>(f(1) + q * (2 * f(2) + q * (3 * f(3) + q * 4 * f(4))));
+    sum += term.curve.value(q);
+    const float slope = static_cast<float>(term.curve.slope(q));
     const Twist<float> wrench{m.lin[term.axis] * slope, m.ang[term.axis] * slope};
     j[2 * i] = shiftWrench(wrench, m.armA);
     j[2 * i + 1] = -shiftWrench(wrench, m.armB);
   }
   return static_cast<float>(sum - coupling.start);
+}
+
+Twist<float> reactionOf(const LinkedJoint& joint) {
+  Twist<float> sum = rows::zeroTwist<float>();
+  for (int i = 0; i < joint.stamped.count; ++i) sum += joint.stamped.row[i].j[0] * *joint.stamped.row[i].lambda;
+  return sum;
 }
 
 CustomBody customBody(const CustomRows& custom, int body, const Twist<float>& moved) {
@@ -159,7 +164,7 @@ void moveMultipliers(LinkedJoint& joint, const BatchView& view, float leak) {
   evaluate(joint, view, list);
   for (int i = 0; i < list.count; ++i) {
     const LinkedRow& row = list.row[i];
-    const float force = multiplierOf({row.C, {}, {}, row.k, row.s, row.lower, row.upper}, *row.lambda, false);
+    const float force = multiplierOf(withoutJacobian(row), *row.lambda, false);
     *row.lambda = row.s == 1 ? leak * force : force;
   }
 }

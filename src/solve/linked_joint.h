@@ -5,6 +5,7 @@
 
 #include <avbd/custom_joint.h>
 
+#include "base/coupling_curve.h"
 #include "solve/scalar_joint.h"
 
 namespace avbd {
@@ -42,7 +43,7 @@ struct CouplingRows {
   struct Term {
     uint32_t scalar = 0;  ///< in BatchView::scalar
     int axis = 0;
-    float factor[4] = {};  ///< of q, q^2, q^3, q^4
+    CouplingCurve curve;
   };
   Term term[kLinkTerms];
   int terms = 0;
@@ -77,8 +78,16 @@ struct LinkedJoint {
   LinkedRows stamped;  ///< what the products with H take: J, and k as it is in the Hessian
 };
 
+/// As of the rows of a scalar joint outside of trees.
+inline rows::PairRow<float> withoutJacobian(const LinkedRow& row) {
+  return {row.C, {}, {}, row.k, row.s, row.lower, row.upper};
+}
+inline RowForce forceOf(const LinkedRow& row) { return forceOf(withoutJacobian(row), *row.lambda, false); }
+
 /// The rows at the bodies' present displacements.
 void evaluate(LinkedJoint& joint, const BatchView& view, LinkedRows& out);
+/// J^T lambda on the first body, of the rows that `stamped` holds.
+rows::Twist<float> reactionOf(const LinkedJoint& joint);
 /// L of a coupling less what it was at the start, and its J by body.
 float couplingMeasure(const LinkedJoint& joint, const BatchView& view, rows::Twist<float> (&j)[kLinkBodies]);
 /// A user's body where it is now.

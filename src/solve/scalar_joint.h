@@ -30,6 +30,7 @@ struct ScalarJoint {
   uint32_t slot = 0;            ///< of the world's joint
   uint32_t island = 0;          ///< of the batch
   bool inTree = false;
+  rows::Twist<float> reaction;  ///< of A, about its anchor, at the end of the substep: 90_publish
 };
 
 /// The rows of a joint at one pose.

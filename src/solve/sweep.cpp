@@ -40,7 +40,7 @@ void stampLinkedSides(const BatchView& view, LinkedJoint& joint, const Colors& c
   evaluate(joint, view, joint.stamped);
   for (int i = 0; i < joint.stamped.count; ++i) {
     const LinkedRow& row = joint.stamped.row[i];
-    const RowForce force = forceOf({row.C, {}, {}, row.k, row.s, row.lower, row.upper}, *row.lambda, false);
+    const RowForce force = forceOf(row);
     // A body may stand in a coupling more than once: its J is the sum.
     for (int b = 0; b < joint.bodies; ++b) {
       if (!moves(joint.row[b]) || std::find(joint.row, joint.row + b, joint.row[b]) != joint.row + b) continue;

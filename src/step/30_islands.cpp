@@ -9,10 +9,6 @@ namespace avbd {
 
 namespace {
 
-bool isDynamic(const WorldData& world, uint32_t slot) {
-  return slot != kNone && world.bodies[slot].type == BodyType::Dynamic;
-}
-
 uint32_t find(std::vector<uint32_t>& parent, uint32_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;

@@ -155,20 +155,11 @@ void publishCoordinates(D6Data& d6, const BatchView& view, const ScalarJoint& sc
 /// full turns.
 void publishScalarJoint(WorldData& world, const BatchView& view, ScalarJoint& scalar) {
   JointData& joint = world.joints[scalar.slot];
-  const ScalarRows list = rowsOf(scalar, view);
-  rows::Twist<float> wrench = rows::zeroTwist<float>();
-  for (int i = 0; i < list.count; ++i) {
-    wrench.lin += list.row[i].lin * *list.lambda[i];
-    wrench.ang += list.row[i].ang * *list.lambda[i];
-  }
-  const bool distance = scalar.kind == ScalarJoint::Kind::Distance;
-  const rows::V3<float> anchor = distance ? scalar.distance.armA : scalar.rows.armA;
-  // A distance joint's force goes through both points.
-  const rows::V3<float> torque = distance ? rows::zeroV3<float>() : wrench.ang + cross(list.armA - anchor, wrench.lin);
-  const float lambda[6] = {wrench.lin.x, wrench.lin.y, wrench.lin.z, torque.x, torque.y, torque.z};
+  const rows::V3<float> force = scalar.reaction.lin, torque = scalar.reaction.ang;
+  const float lambda[6] = {force.x, force.y, force.z, torque.x, torque.y, torque.z};
   for (int i = 0; i < 6; ++i) joint.lambda[i] = lambda[i];
-  joint.reaction = {fromRow(-wrench.lin), fromRow(-torque)};
-  if (distance) {
+  joint.reaction = {fromRow(-force), fromRow(-torque)};
+  if (scalar.kind == ScalarJoint::Kind::Distance) {
     world.links[scalar.slot].lambda.lower = scalar.distance.lambdaLower;
     world.links[scalar.slot].lambda.upper = scalar.distance.lambdaUpper;
     world.links[scalar.slot].lambda.lock = 0;
@@ -182,18 +173,9 @@ void publishScalarJoints(WorldData& world, StepData& step, uint32_t batch) {
   for (uint32_t i = 0; i < view.scalar.count; ++i) publishScalarJoint(world, view, view.scalar.joint[i]);
 }
 
-/// Force and torque on the first body: of a pulley at its point.
-JointReaction reactionOf(const LinkedJoint& linked, const LinkedRows& list) {
-  rows::Twist<float> sum = rows::zeroTwist<float>();
-  for (int i = 0; i < list.count; ++i) sum += linked.stamped.row[i].j[0] * *list.row[i].lambda;
-  if (linked.kind == LinkedJoint::Kind::Pulley) sum.ang = rows::zeroV3<float>();
-  return {fromRow(-sum.lin), fromRow(-sum.ang)};
-}
-
 void publishLinked(WorldData& world, const BatchView& view, LinkedJoint& linked) {
   JointData& joint = world.joints[linked.slot];
   LinkData& link = world.links[linked.slot];
-  evaluate(linked, view, linked.stamped);
   if (linked.kind == LinkedJoint::Kind::Coupling) {
     float force = 0;
     for (int i = 0; i < linked.stamped.count; ++i) {
@@ -204,8 +186,10 @@ void publishLinked(WorldData& world, const BatchView& view, LinkedJoint& linked)
     joint.reaction = {{}, {-force, 0, 0}};
     return;
   }
-  joint.reaction = reactionOf(linked, linked.stamped);
+  const rows::Twist<float> on = reactionOf(linked);
+  joint.reaction = {fromRow(-on.lin), fromRow(-on.ang)};
   if (linked.kind == LinkedJoint::Kind::Pulley) {
+    joint.reaction.torque = {};  // about its point
     joint.lambda[0] = linked.pulley.lambda;
     return;
   }

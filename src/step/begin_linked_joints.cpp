@@ -5,7 +5,7 @@
 #include "solve/linked_joint.h"
 #include "step/coordinate_rows.h"
 #include "step/joint_side.h"
-#include "world/bodies.h"
+#include "world/joint_coordinates.h"
 #include "world/joints.h"
 
 namespace avbd {
@@ -14,10 +14,6 @@ namespace {
 
 using rows::Twist;
 using rows::V3;
-
-bool isDynamic(const WorldData& world, uint32_t body) {
-  return body != kNone && world.bodies[body].type == BodyType::Dynamic;
-}
 
 /// J M^-1 J^T of one body. A body that stands in a row more than once is counted apart each time: an estimate.
 float inverseMass(const WorldData& world, uint32_t slot, const Twist<float>& j) {
@@ -62,13 +58,9 @@ void fillCoupling(const WorldData& world, StepData& step, const BatchView& view,
     const LinkTerm& from = link.terms[static_cast<size_t>(i)];
     CouplingRows::Term& term = coupling.term[i];
     const ScalarJoint& scalar = view.scalar.joint[term.scalar];
-    const D6Data& d6 = world.d6[scalar.slot];
-    const size_t user = static_cast<size_t>(from.axis), group = user / 3 * 3;
-    term.axis = static_cast<int>(group + (user - group + 3 - d6.turned) % 3);
-    std::copy(std::begin(from.factor), std::end(from.factor), term.factor);
-    const double q = static_cast<double>(scalar.rows.axis[term.axis].start);
-    const auto f = [&](int power) { return static_cast<double>(from.factor[power - 1]); };
-    coupling.start += q * (f(1) + q * (f(2) + q * (f(3) + q * f(4))));
+    term.axis = static_cast<int>(innerAxis(world.d6[scalar.slot], from.axis));
+    term.curve = from.curve;
+    coupling.start += term.curve.value(static_cast<double>(scalar.rows.axis[term.axis].start));
   }
   Twist<float> j[kLinkBodies];
   couplingMeasure(joint, view, j);
@@ -93,12 +85,6 @@ void fillCoupling(const WorldData& world, StepData& step, const BatchView& view,
   fillCoordinate(world, step, at, coupling.axes, coupling.axis);
 }
 
-CustomBody startOf(const WorldData& world, uint32_t slot) {
-  if (slot == kNone) return {};
-  const BodyData& body = world.bodies[slot];
-  return {bodyPose(body), body.position};
-}
-
 void fillCustom(const WorldData& world, const StepData& step, const BatchView& view, LinkedJoint& joint) {
   const JointData& data = world.joints[joint.slot];
   const LinkData& link = world.links[joint.slot];
@@ -107,7 +93,7 @@ void fillCustom(const WorldData& world, const StepData& step, const BatchView& v
   custom.constants = link.constants, custom.memory = link.memory;
   custom.bodies = link.bodies, custom.rows = link.family->rowCount(), custom.h = step.h;
   for (int i = 0; i < link.bodies; ++i) {
-    custom.start[i] = startOf(world, data.body[i]);
+    custom.start[i] = customBodyOf(world, data.body[i]);
     custom.center[i] = data.body[i] == kNone ? Vec3{} : world.bodies[data.body[i]].center;
   }
   for (int i = 0; i < custom.rows; ++i) custom.held[i] = custom.rho[i] = 0, custom.lambda[i] = data.lambda[i];

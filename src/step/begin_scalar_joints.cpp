@@ -118,22 +118,25 @@ float blendOf(const WorldData& world, const StepData& step, const JointData& joi
   return armBlend(step, frame.a, frame.b, length(force));
 }
 
-Frame frameOf(const WorldData& world, const JointData& data, bool inTree) {
-  return {jointSide(world, data, 0),       jointSide(world, data, 1),       {},
-          velocityOf(world, data.body[0]), velocityOf(world, data.body[1]), inTree};
-}
-
-void fillD6(const WorldData& world, const StepData& step, ScalarJoint& joint) {
+/// Places the rows of a joint, which hold nothing else then.
+template <class Rows>
+Frame place(const WorldData& world, const StepData& step, const ScalarJoint& joint, Rows& rows) {
   const JointData& data = world.joints[joint.slot];
-  const D6Data& d6 = world.d6[joint.slot];
-  Frame frame = frameOf(world, data, joint.inTree);
-  rows::D6Joint<float>& rows = joint.rows;
+  const Frame frame{jointSide(world, data, 0),       jointSide(world, data, 1),       {},
+                    velocityOf(world, data.body[0]), velocityOf(world, data.body[1]), joint.inTree};
   rows = {};
   rows.armA = frame.a.arm, rows.armB = frame.b.arm;
-  rows.qA = frame.a.axes, rows.qB = frame.b.axes;
   rows.offset = toRow(frame.b.anchor - frame.a.anchor);
   rows.tau = blendOf(world, step, data, frame);
   rows.adapts = world.def.jointArmBlend < 0 ? 1 : 0;
+  return frame;
+}
+
+void fillD6(const WorldData& world, const StepData& step, ScalarJoint& joint) {
+  const D6Data& d6 = world.d6[joint.slot];
+  rows::D6Joint<float>& rows = joint.rows;
+  Frame frame = place(world, step, joint, rows);
+  rows.qA = frame.a.axes, rows.qB = frame.b.axes;
   findCoordinates(d6, rows);
   const Twist<float> still = rows::zeroTwist<float>();
   frame.at = rows.measure(still, still);
@@ -152,15 +155,10 @@ void fillD6(const WorldData& world, const StepData& step, ScalarJoint& joint) {
 void fillDistance(const WorldData& world, const StepData& step, ScalarJoint& joint) {
   const JointData& data = world.joints[joint.slot];
   const LinkData& link = world.links[joint.slot];
-  Frame frame = frameOf(world, data, joint.inTree);
   rows::Distance<float>& rows = joint.distance;
-  rows = {};
-  rows.armA = frame.a.arm, rows.armB = frame.b.arm;
-  rows.offset = toRow(frame.b.anchor - frame.a.anchor);
+  Frame frame = place(world, step, joint, rows);
   rows.start = length(rows.offset);
   rows.direction = rows.start > 0 ? rows.offset * (1 / rows.start) : V3<float>{0, -1, 0};
-  rows.tau = blendOf(world, step, data, frame);
-  rows.adapts = world.def.jointArmBlend < 0 ? 1 : 0;
   frame.at.armA = rows.armA + rows.offset, frame.at.armB = rows.armB;
   const Felt felt = feltBy(frame, -rows.direction, rows::zeroV3<float>());
   const auto across = [](const JointSide& side) { return side.invMass + side.turning * dot(side.arm, side.arm); };

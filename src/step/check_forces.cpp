@@ -2,6 +2,8 @@
 // finite.
 #include "step/check_forces.h"
 
+#include <cstddef>
+
 #include "solve/linked_joint.h"
 #include "world/joints.h"
 
@@ -18,7 +20,7 @@ namespace {
 [[noreturn]] void failJoint(const WorldData& world, uint32_t joint) {
   uint32_t found = kNone;
   forEachBody(world, joint, [&](uint32_t body) {
-    if (found == kNone && body != kNone && world.bodies[body].type == BodyType::Dynamic) found = body;
+    if (found == kNone && isDynamic(world, body)) found = body;
   });
   fail(world, found);
 }
@@ -26,23 +28,40 @@ namespace {
 bool isFinite(float x) { return x * 0 == 0; }
 bool isFinite(const rows::V3<float>& v) { return isFinite(v.x * 0 + v.y * 0 + v.z * 0); }
 
+uint32_t movableOf(const WorldData& world, const PairData& pair) {
+  return isDynamic(world, pair.bodyA) ? pair.bodyA : pair.bodyB;
+}
+
+/// Line of a tile that holds the first multiplier of a contact's point; the other two follow.
+constexpr size_t multiplierLine(size_t point) {
+  using Point = rows::ContactPointRows<float>;
+  return (offsetof(rows::Contact<float>, point) + point * sizeof(Point) + offsetof(Point, lambdaN)) / sizeof(float);
+}
+
+/// Only the multipliers of each tile are read, sixteen contacts at a time. A full contact begins with a contact.
+template <template <class> class Family>
+void checkContactTiles(const WorldData& world, const AlignedVector<Tile<Family>>& tiles,
+                       const std::vector<uint32_t>& pairs) {
+  for (size_t t = 0; t < tiles.size(); ++t) {
+    float sum[kTile] = {};
+    for (size_t point = 0; point < size_t(kMaxManifoldPoints); ++point)
+      for (size_t line = multiplierLine(point); line < multiplierLine(point) + 3; ++line)
+        for (size_t lane = 0; lane < kTile; ++lane) sum[lane] += tiles[t].data[line][lane] * 0;
+    for (size_t lane = 0; lane < kTile; ++lane)
+      if (!(sum[lane] == 0) && pairs[kTile * t + lane] != kNone)
+        fail(world, movableOf(world, world.pairs[pairs[kTile * t + lane]]));
+  }
+}
+
 void checkContacts(const WorldData& world, const StepData& step) {
-  const auto check = [&](const rows::Contact<float>& contact, uint32_t pair) {
-    float sum = 0;
-    for (const auto& p : contact.point) sum += p.lambdaN * 0 + p.lambda1 * 0 + p.lambda2 * 0;
-    if (sum == 0) return;
-    const PairData& of = world.pairs[pair];
-    fail(world, world.bodies[of.bodyA].type == BodyType::Dynamic ? of.bodyA : of.bodyB);
-  };
-  for (size_t lane = 0; lane < step.contactPair.size(); ++lane)
-    if (step.contactPair[lane] != kNone) check(step.contacts[lane / kTile].get(lane % kTile), step.contactPair[lane]);
+  static_assert(offsetof(rows::FullContact<float>, contact) == 0);
+  checkContactTiles(world, step.contacts, step.contactPair);
+  checkContactTiles(world, step.full, step.fullPair);
   for (size_t lane = 0; lane < step.fullPair.size(); ++lane) {
     if (step.fullPair[lane] == kNone) continue;
     const rows::FullContact<float> full = step.full[lane / kTile].get(lane % kTile);
-    check(full.contact, step.fullPair[lane]);
-    const PairData& of = world.pairs[step.fullPair[lane]];
     if (!isFinite(rows::V3<float>{full.lambdaTorsion, full.lambda1, full.lambda2}))
-      fail(world, world.bodies[of.bodyA].type == BodyType::Dynamic ? of.bodyA : of.bodyB);
+      fail(world, movableOf(world, world.pairs[step.fullPair[lane]]));
   }
 }
 
@@ -70,25 +89,31 @@ void checkPairs(const WorldData& world, const StepData& step) {
         failJoint(world, joint.slot);
 }
 
+/// The whole force of a scalar joint on A, about its anchor.
+rows::Twist<float> reactionOf(ScalarJoint& joint, const BatchView& view) {
+  const ScalarRows list = rowsOf(joint, view);
+  rows::Twist<float> wrench = rows::zeroTwist<float>();
+  for (int r = 0; r < list.count; ++r) {
+    wrench.lin += list.row[r].lin * *list.lambda[r];
+    wrench.ang += list.row[r].ang * *list.lambda[r];
+  }
+  // A distance joint's force goes through both points.
+  if (joint.kind == ScalarJoint::Kind::Distance) return {wrench.lin, rows::zeroV3<float>()};
+  return {wrench.lin, wrench.ang + cross(list.armA - joint.rows.armA, wrench.lin)};
+}
+
 void checkScalar(const WorldData& world, StepData& step) {
   for (uint32_t i = 0; i < step.batches.size(); ++i) {
     const BatchView view = step.view(i);
     for (uint32_t n = 0; n < view.scalar.count; ++n) {
       ScalarJoint& joint = view.scalar.joint[n];
-      const ScalarRows list = rowsOf(joint, view);
-      rows::Twist<float> wrench = rows::zeroTwist<float>();
-      for (int r = 0; r < list.count; ++r) {
-        wrench.lin += list.row[r].lin * *list.lambda[r];
-        wrench.ang += list.row[r].ang * *list.lambda[r];
-      }
-      if (!isFinite(wrench.lin) || !isFinite(wrench.ang + cross(list.armA, wrench.lin))) failJoint(world, joint.slot);
+      joint.reaction = reactionOf(joint, view);
+      if (!isFinite(joint.reaction.lin) || !isFinite(joint.reaction.ang)) failJoint(world, joint.slot);
     }
     for (uint32_t n = 0; n < view.linked.count; ++n) {
       LinkedJoint& joint = view.linked.joint[n];
-      LinkedRows list;
-      evaluate(joint, view, list);
-      rows::Twist<float> sum = rows::zeroTwist<float>();
-      for (int r = 0; r < list.count; ++r) sum += list.row[r].j[0] * *list.row[r].lambda;
+      evaluate(joint, view, joint.stamped);
+      const rows::Twist<float> sum = reactionOf(joint);
       if (!isFinite(sum.lin) || !isFinite(sum.ang)) failJoint(world, joint.slot);
     }
   }

@@ -48,18 +48,8 @@ LinkTerm checkedTerm(const WorldData& data, const CouplingTerm& term, const Path
   const float factor[4] = {term.factor, term.square, term.cube, term.fourth};
   if (std::all_of(factor, factor + 4, [](float f) { return f == 0; }))
     (path / "factor").refuse("0", "must not be 0 where square, cube and fourth are");
-  std::copy(factor, factor + 4, out.factor);
+  std::copy(factor, factor + 4, out.curve.factor);
   return out;
-}
-
-double sumOf(const WorldData& data, const std::vector<LinkTerm>& terms) {
-  double sum = 0;
-  for (const LinkTerm& term : terms) {
-    const double q = motionOf(data, term.joint).position[innerAxis(data.d6[term.joint], term.axis)];
-    const double f[4] = {term.factor[0], term.factor[1], term.factor[2], term.factor[3]};
-    sum += q * (f[0] + q * (f[1] + q * (f[2] + q * f[3])));
-  }
-  return sum;
 }
 
 void checkFamily(const Path& path, const CustomJoint& def) {
@@ -130,7 +120,7 @@ LinkPlan checkedJoint(const WorldData& data, const Coupling& def) {
   if (def.rest) check(path / "rest", *def.rest, symmetric(kMaxForce));
   plan.joint.stiffness = def.stiffness;
   plan.link.axis = def.axis, plan.link.damping = def.damping;
-  plan.link.rest = def.rest ? *def.rest : sumOf(data, plan.link.terms);
+  plan.link.rest = def.rest ? *def.rest : couplingMotion(data, plan.link).position;
   return plan;
 }
 

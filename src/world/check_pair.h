@@ -12,10 +12,6 @@ inline uint32_t jointedSlot(const WorldData& data, BodyId id, const Path& path) 
   path.refuse(toText(id), "must name a living body of this world, or be null for the world");
 }
 
-inline bool isDynamic(const WorldData& data, uint32_t body) {
-  return body != kNone && data.bodies[body].type == BodyType::Dynamic;
-}
-
 inline Pose checkedFrame(const WorldData& data, uint32_t body, const Path& path, const Pose& frame) {
   const double unit = data.def.lengthUnit;
   return checkedPose(path, frame, (body == kNone ? kMaxPosition : kMaxSize) * unit);

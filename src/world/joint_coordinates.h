@@ -17,6 +17,9 @@ struct LinkMotion {
   double position = 0, velocity = 0;
 };
 LinkMotion linkMotionOf(const WorldData& data, uint32_t joint);
+LinkMotion couplingMotion(const WorldData& data, const LinkData& link);
+/// A body as a user's family sees it; of kNone the world.
+CustomBody customBodyOf(const WorldData& data, uint32_t body);
 /// How far a distance joint, pulley or locked coupling is from holding.
 double linkGap(const WorldData& data, uint32_t joint);
 /// The largest |C| of a custom joint's hard rows.

@@ -27,20 +27,23 @@ LinkMotion between(const MovingPoint& a, const MovingPoint& b) {
   return {size, size > 0 ? dot(line, b.velocity - a.velocity) / size : 0};
 }
 
+}  // namespace
+
 LinkMotion couplingMotion(const WorldData& data, const LinkData& link) {
   LinkMotion sum;
   for (const LinkTerm& term : link.terms) {
     const JointMotion motion = motionOf(data, term.joint);
     const size_t i = innerAxis(data.d6[term.joint], term.axis);
-    const double q = motion.position[i];
-    const double f[4] = {term.factor[0], term.factor[1], term.factor[2], term.factor[3]};
-    sum.position += q * (f[0] + q * (f[1] + q * (f[2] + q * f[3])));
-    sum.velocity += motion.velocity[i] * (f[0] + q * (2 * f[1] + q * (3 * f[2] + q * 4 * f[3])));
+    sum.position += term.curve.value(motion.position[i]);
+    sum.velocity += motion.velocity[i] * term.curve.slope(motion.position[i]);
   }
   return sum;
 }
 
-}  // namespace
+CustomBody customBodyOf(const WorldData& data, uint32_t slot) {
+  if (slot == kNone) return {};
+  return {bodyPose(data.bodies[slot]), data.bodies[slot].position};
+}
 
 LinkMotion linkMotionOf(const WorldData& data, uint32_t slot) {
   const JointData& joint = data.joints[slot];
@@ -66,11 +69,7 @@ double linkGap(const WorldData& data, uint32_t slot) {
 double customGap(const WorldData& data, uint32_t slot) {
   const LinkData& link = data.links[slot];
   std::vector<CustomBody> bodies;
-  for (int i = 0; i < link.bodies; ++i) {
-    const uint32_t body = data.joints[slot].body[i];
-    bodies.push_back(body == kNone ? CustomBody{}
-                                   : CustomBody{bodyPose(data.bodies[body]), data.bodies[body].position});
-  }
+  for (int i = 0; i < link.bodies; ++i) bodies.push_back(customBodyOf(data, data.joints[slot].body[i]));
   std::vector<CustomRow> rows(static_cast<size_t>(link.family->rowCount()));
   link.family->evaluate(bodies, bodies, 0, link.constants, link.memory, rows);
   double gap = 0;

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "base/coupling_curve.h"
 #include "base/handle_pool.h"
 #include "geom/manifold.h"
 #include "geom/shape.h"
@@ -95,7 +96,7 @@ struct D6Data {
 struct LinkTerm {
   uint32_t joint = kNone;  ///< slot
   JointAxis axis = JointAxis::Twist;
-  float factor[4] = {};  ///< of q, q^2, q^3, q^4
+  CouplingCurve curve;
 };
 
 /// What a distance joint, pulley, coupling or custom joint has besides.
@@ -209,5 +210,10 @@ struct WorldData {
   uint32_t hookedShapes = 0;   ///< how many shapes have contactHook
   bool wishesChanged = false;  ///< some shape's contactEvents, hitEvents or contactHook: pairs do not know it yet
 };
+
+/// False of kNone, the world.
+inline bool isDynamic(const WorldData& data, uint32_t body) {
+  return body != kNone && data.bodies[body].type == BodyType::Dynamic;
+}
 
 }  // namespace avbd
