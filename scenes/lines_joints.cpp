@@ -53,14 +53,17 @@ Model chainOf(const Settings& settings, const Chain& chain) {
 std::vector<Figure> tryChain(const Settings& settings, const Chain& chain) {
   Model model = chainOf(settings, chain);
   const Layout layout = layoutOf(model.world);
-  const double start = energy(model.world), scale = 5 * 4 * kGravity * 20;
-  double gap = 0, angle = 0, rise = -1;
+  const double scale = 5 * 4 * kGravity * 20;
+  double start = NAN, gap = 0, angle = 0, rise = -1;
   for (int i = 0; i < 600; ++i) {
+    const std::vector<Motion> before = motionsOf(model.world);
     model.world.step(static_cast<float>(kDt));
     const std::vector<Pose> poses = posesOf(model.world, layout);
     gap = std::max(gap, jointGapMax(layout, poses));
     angle = std::max(angle, jointAngleMax(layout, poses));
-    rise = std::max(rise, (energy(model.world) - start) / scale);
+    const double now = energyBetween(before, model.world);
+    if (i == 0) start = now;
+    rise = std::max(rise, (now - start) / scale);
   }
   const std::string params = std::string("type=") + nameOf(chain.kind) + (chain.stop > 0 ? " slope=45" : "");
   // Positions and velocities are rounded to float each step; a millionth of the scale is below anything real.

@@ -196,6 +196,32 @@ bool isFinite(const World& world) {
   return true;
 }
 
+std::vector<Motion> motionsOf(const World& world) {
+  const Vec3d g = toDouble(world.definition().gravity);
+  std::vector<Motion> motions;
+  for (const BodyId id : world.bodies()) {
+    if (world.type(id) != BodyType::Dynamic) continue;
+    const Velocity v = world.velocity(id);
+    Motion m{id, world.mass(id), -world.mass(id) * dot(g, world.worldCenterOfMass(id)), {}, v};
+    const Vec3d axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (size_t i = 0; i < 3; ++i) m.inertia[i] = spin(world, id, axes[i]);
+    motions.push_back(m);
+  }
+  return motions;
+}
+
+double energyBetween(std::span<const Motion> motions, const World& world) {
+  double sum = 0;
+  for (const Motion& m : motions) {
+    const Velocity leaving = world.velocity(m.body);
+    const Vec3d v = (toDouble(m.coming.linear) + toDouble(leaving.linear)) * 0.5;
+    const Vec3d w = (toDouble(m.coming.angular) + toDouble(leaving.angular)) * 0.5;
+    const Vec3d spun = m.inertia[0] * w.x + m.inertia[1] * w.y + m.inertia[2] * w.z;
+    sum += 0.5 * m.mass * dot(v, v) + 0.5 * dot(w, spun) + m.potential;
+  }
+  return sum;
+}
+
 double energy(const World& world) {
   const Vec3d g = toDouble(world.definition().gravity);
   double sum = 0;

@@ -3,6 +3,7 @@
 
 #include <avbd/avbd.h>
 
+#include <array>
 #include <span>
 #include <unordered_set>
 #include <vector>
@@ -74,6 +75,19 @@ bool isFinite(std::span<const Pose> poses);
 
 /// Kinetic and gravitational energy of the dynamic bodies [J].
 double energy(const World& world);
+
+/// A body where it is now.
+struct Motion {
+  BodyId body;
+  double mass, potential;        ///< [kg], [J]
+  std::array<Vec3d, 3> inertia;  ///< columns, world axes [kg m^2]
+  Velocity coming;               ///< of the step that led here
+};
+std::vector<Motion> motionsOf(const World& world);  ///< of all dynamic bodies
+/// Energy where the bodies were when `motions` were taken, one step ago, at the mean of the velocities with which they
+/// came and left: a step's velocity is that of its middle, and half a step ahead of its place a body that rises has too
+/// much.
+double energyBetween(std::span<const Motion> motions, const World& world);
 /// Sums over dynamic bodies in double from poses and velocities: linear, and angular about the origin; and the sums of
 /// the bodies' magnitudes, which relative errors refer to.
 struct Momentum {

@@ -6,6 +6,10 @@
 // residual gives up what the joints carry (r -= J^T mu) so that it does not drown in rounding.
 #include "solve/krylov.h"
 
+#include <algorithm>
+
+#include "avbd/rows/sinks.h"
+#include "solve/body_rows.h"
 #include "solve/linked_joint.h"
 #include "solve/locks.h"
 #include "solve/scalar_joint.h"
@@ -14,11 +18,16 @@ namespace avbd {
 
 namespace {
 
-constexpr float kSettled = 3e-5f;           ///< relative change of a tree's pose that ends its outer iterations
+constexpr float kSettled = 3e-5f;  ///< relative change of a tree's pose that ends its outer iterations
+
+constexpr int kNewtonFactor = 8;            ///< all Newton steps are at most so many times the outer iterations
 constexpr float kRelativeResidual = 1e-9f;  ///< of r . M^-1 r, squared norm: an island below it is solved
 
 /// All bodies stand in trees, which factor their own blocks.
 bool isForest(const BatchView& view, const Forest* forest) { return forest && forest->nodes.size() == view.bodies; }
+
+/// The preconditioner solves the island in one go.
+bool isExact(const IslandRange& island) { return island.hasTree && !island.coupled; }
 
 class Krylov {
  public:
@@ -133,15 +142,47 @@ float largest(const float* array, uint32_t begin, uint32_t end) {
   return most;
 }
 
-/// Ends the outer iterations of trees that nothing else couples once they do not move any more: their iteration is
-/// Newton's, and only such an island's next iteration depends on nothing but itself.
-void retireSettled(const BatchView& view, KrylovScratch& scratch) {
+const IslandRange& islandOf(const BatchView& view, uint32_t row) {
+  return *(std::upper_bound(view.island, view.island + view.islands, row,
+                            [](uint32_t value, const IslandRange& island) { return value < island.begin; }) -
+           1);
+}
+
+/// Dual update of the joints in tiles, of some islands alone.
+template <template <class> class Family>
+void moveMultipliers(const BatchView& view, const PairTiles<Family>& tiles, float leak, const uint8_t* active) {
+  for (uint32_t lane = 0; lane < tiles.tiles * kTile; ++lane) {
+    const uint32_t a = tiles.a[lane], b = tiles.b[lane], row = a < view.bodies ? a : b;
+    if (row >= view.bodies || !active[&islandOf(view, row) - view.island]) continue;
+    Family<float> pair = tiles.tile[lane / kTile].get(static_cast<int>(lane % kTile));
+    rows::DualSink<float> sink{leak};
+    pair.rows(readTwist(view.d, a), readTwist(view.d, b), sink);
+    tiles.tile[lane / kTile].set(static_cast<int>(lane % kTile), pair);
+  }
+}
+
+/// Ends the outer iterations of islands that the preconditioner solves exactly once they do not move any more: their
+/// iteration is Newton's, and only such an island's next iteration depends on nothing but itself. Joints in tiles move
+/// their multipliers with those of all others as long as `tiles` says.
+void retireSettled(const BatchView& view, float settled, bool tiles, KrylovScratch& scratch) {
   for (uint32_t n = 0; n < view.islands; ++n) {
     const IslandRange& island = view.island[n];
-    if (!island.hasTree || island.coupled || !scratch.unsolved[n]) continue;
+    if (!isExact(island) || !scratch.unsolved[n] || (tiles && island.inTiles)) continue;
     const float moved = largest(view.x, island.begin, island.end), whole = largest(view.d, island.begin, island.end);
-    if (moved <= kSettled * whole) scratch.unsolved[n] = 0;
+    if (moved <= settled * whole) scratch.unsolved[n] = 0;
   }
+}
+
+/// After the outer iterations: what needs conjugate gradients has had its due. Where it does not, they were one Newton
+/// step each, at an eighth of the cost, and a mechanism that whips may take as many again.
+void retireCoupled(const BatchView& view, KrylovScratch& scratch) {
+  for (uint32_t n = 0; n < view.islands; ++n)
+    if (!isExact(view.island[n])) scratch.unsolved[n] = 0;
+  retireSettled(view, kSettled, false, scratch);
+}
+
+bool anyUnsolved(const KrylovScratch& scratch) {
+  return std::find(scratch.unsolved.begin(), scratch.unsolved.end(), 1) != scratch.unsolved.end();
 }
 
 }  // namespace
@@ -165,24 +206,46 @@ void boundTurns(const BatchView& view) {
 
 }  // namespace
 
+namespace {
+
+enum class Phase { First, Outer, Newton };
+
+void iterate(const BatchView& view, const Backend& backend, const SolveSettings& settings, Forest* forest, Phase phase,
+             KrylovScratch& scratch) {
+  const bool dual = phase != Phase::First;
+  if (phase == Phase::Newton) {
+    moveMultipliers(view, view.balls, settings.jointLeak, scratch.unsolved.data());
+    moveMultipliers(view, view.fixed, settings.jointLeak, scratch.unsolved.data());
+  }
+  backend.beginIteration(view);
+  backend.stampRows(view, settings, phase == Phase::Outer);
+  stampScalar(view, settings.jointLeak, dual, scratch.unsolved.data());
+  stampLinked(view, dual ? settings.jointLeak : 1, scratch.unsolved.data());
+  if (forest) forest->stamp(view, scratch.unsolved.data());
+  if (view.lockedCount) applyLocks(view);
+  if (!isForest(view, forest)) backend.factor(view);
+  if (forest) forest->factor(view, scratch.unsolved.data());
+  Krylov(view, backend, forest, scratch).solve(settings.krylovIterations);
+  boundTurns(view);
+  backend.addScaled(view.d, view.x, 1, 0, view.bodies);
+  takeLinkedForces(view, scratch.unsolved.data());
+  if (forest) forest->updateMultipliers(scratch.unsolved.data());
+}
+
+}  // namespace
+
 void solveKrylov(const BatchView& view, const Backend& backend, const SolveSettings& settings, Forest* forest,
                  KrylovScratch& scratch) {
   scratch.unsolved.assign(view.islands, 1);
   for (int i = 0; i < settings.iterations; ++i) {
-    backend.beginIteration(view);
-    backend.stampRows(view, settings, i > 0);
-    stampScalar(view, settings.jointLeak, i > 0, scratch.unsolved.data());
-    stampLinked(view, settings.jointLeak, i > 0, scratch.unsolved.data());
-    if (forest) forest->stamp(view, scratch.unsolved.data());
-    if (view.lockedCount) applyLocks(view);
-    if (!isForest(view, forest)) backend.factor(view);
-    if (forest) forest->factor(view, scratch.unsolved.data());
-    Krylov(view, backend, forest, scratch).solve(settings.krylovIterations);
-    boundTurns(view);
-    backend.addScaled(view.d, view.x, 1, 0, view.bodies);
-    if (!forest) continue;
-    forest->updateMultipliers(scratch.unsolved.data());
-    retireSettled(view, scratch);
+    iterate(view, backend, settings, forest, i > 0 ? Phase::Outer : Phase::First, scratch);
+    retireSettled(view, kSettled, true, scratch);
+  }
+  if (!forest) return;
+  retireCoupled(view, scratch);
+  for (int i = settings.iterations; i < kNewtonFactor * settings.iterations && anyUnsolved(scratch); ++i) {
+    iterate(view, backend, settings, forest, Phase::Newton, scratch);
+    retireSettled(view, kSettled, false, scratch);
   }
 }
 

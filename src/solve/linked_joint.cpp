@@ -4,6 +4,7 @@
 #include <array>
 
 #include "solve/body_rows.h"
+#include "solve/geometric.h"
 
 namespace avbd {
 
@@ -44,7 +45,7 @@ void pulleyRows(LinkedJoint& joint, const BatchView& view, LinkedRows& out) {
   float grown = 0;
   for (int i = 0; i < 2; ++i) {
     const Twist<float> d = readTwist(view.d, joint.row[i]);
-    const V3<float> arm = rotate(rows::expQuat(d.ang), pulley.arm[i]);
+    const V3<float> arm = out.arm[i] = rotate(rows::expQuat(d.ang), pulley.arm[i]);
     const V3<float> moved = d.lin + arm - pulley.arm[i], end = pulley.offset[i] + moved;
     const float size = length(end), factor = i == 0 ? 1 : pulley.ratio;
     grown += factor * dot(moved, end + pulley.offset[i]) / rows::max(size + pulley.start[i], 1e-30f);
@@ -53,7 +54,7 @@ void pulleyRows(LinkedJoint& joint, const BatchView& view, LinkedRows& out) {
     addAcross(pulley, i, n, arm, size, out);
   }
   row.C = grown - pulley.held;
-  row.k = pulley.k, row.s = 1;
+  row.k = rows::stiffnessUnder(pulley.k, pulley.load, pulley.lambda), row.s = 1;
   row.lower = pulley.slack ? 0 : -rows::kInfinity, row.upper = rows::kInfinity;
   row.lambda = &pulley.lambda;
 }
@@ -61,7 +62,7 @@ void pulleyRows(LinkedJoint& joint, const BatchView& view, LinkedRows& out) {
 void couplingRows(LinkedJoint& joint, const BatchView& view, LinkedRows& out) {
   CouplingRows& coupling = joint.coupling;
   Twist<float> j[kLinkBodies];
-  const float q = couplingMeasure(joint, view, j);
+  const float q = couplingMeasure(joint, view, j, out.arm);
   out.count = 0;
   axisRows(coupling.axes, 0, coupling.axis, q, [&](float C, float k, float s, float lower, float upper, float& lambda) {
     LinkedRow& row = out.row[out.count++];
@@ -96,6 +97,14 @@ void customRows(LinkedJoint& joint, const BatchView& view, LinkedRows& out) {
   }
 }
 
+/// J x of the last solution, summed over the bodies that move.
+float moved(const LinkedJoint& joint, const LinkedRow& row, const BatchView& view, const float* array) {
+  float sum = 0;
+  for (int b = 0; b < joint.bodies; ++b)
+    if (joint.row[b] < view.bodies) sum += apply(row.j[b], readTwist(array, joint.row[b]));
+  return sum;
+}
+
 /// J k J^T of one body's block.
 rows::Sym6<float> blockOf(float k, const Twist<float>& j) {
   rows::Sym6<float> block = rows::zeroSym6<float>();
@@ -108,17 +117,30 @@ void stamp(const BatchView& view, LinkedJoint& joint) {
   for (int i = 0; i < joint.stamped.count; ++i) {
     LinkedRow& row = joint.stamped.row[i];
     const RowForce force = forceOf(row);
-    row.k = force.k;
+    row.k = force.k, row.force = force.force;
     for (int b = 0; b < joint.bodies; ++b) {
       addTwist(view.gradient, joint.row[b], row.j[b] * force.force);
-      if (force.k > 0) addBlock(view.hessian, joint.row[b], blockOf(force.k, row.j[b]));
+      addAngular(view, joint.row[b], rows::geometricStiffness(row.j[b].lin * -force.force, joint.stamped.arm[b]));
+      if (force.k > 0 && joint.first[b] == b)
+        addBlock(view.hessian, joint.row[b], blockOf(force.k, jacobianOf(joint, row, b)));
     }
   }
 }
 
 }  // namespace
 
-float couplingMeasure(const LinkedJoint& joint, const BatchView& view, Twist<float> (&j)[kLinkBodies]) {
+RowForce forceOf(const LinkedRow& row) {
+  const rows::PairRow<float> of = withoutJacobian(row);
+  const bool bounded = row.lower > -rows::kInfinity && row.upper < rows::kInfinity;
+  // A hard row is at its bound where the force that it needs is, not where its stiffness would take it.
+  const float needs = *row.lambda + kActiveShare * row.k * row.C;
+  if (row.s == 1 && bounded && needs > row.lower && needs < row.upper)
+    return {RowKind::Elastic, *row.lambda + row.k * row.C, row.k};
+  return forceOf(of, *row.lambda, false);
+}
+
+float couplingMeasure(const LinkedJoint& joint, const BatchView& view, Twist<float> (&j)[kLinkBodies],
+                      V3<float> (&arm)[kLinkBodies]) {
   const CouplingRows& coupling = joint.coupling;
   clear(j);
   double sum = 0;
@@ -133,8 +155,16 @@ float couplingMeasure(const LinkedJoint& joint, const BatchView& view, Twist<flo
     const Twist<float> wrench{m.lin[term.axis] * slope, m.ang[term.axis] * slope};
     j[2 * i] = shiftWrench(wrench, m.armA);
     j[2 * i + 1] = -shiftWrench(wrench, m.armB);
+    arm[2 * i] = m.armA, arm[2 * i + 1] = m.armB;
   }
   return static_cast<float>(sum - coupling.start);
+}
+
+Twist<float> jacobianOf(const LinkedJoint& joint, const LinkedRow& row, int body) {
+  Twist<float> sum = rows::zeroTwist<float>();
+  for (int b = 0; b < joint.bodies; ++b)
+    if (joint.first[b] == body) sum += row.j[b];
+  return sum;
 }
 
 Twist<float> reactionOf(const LinkedJoint& joint) {
@@ -169,12 +199,24 @@ void moveMultipliers(LinkedJoint& joint, const BatchView& view, float leak) {
   }
 }
 
-void stampLinked(const BatchView& view, float leak, bool dual, const uint8_t* active) {
+void stampLinked(const BatchView& view, float leak, const uint8_t* active) {
   for (uint32_t n = 0; n < view.linked.count; ++n) {
     LinkedJoint& joint = view.linked.joint[n];
     if (!active[joint.island]) continue;
-    if (dual) moveMultipliers(joint, view, leak);
+    for (int i = 0; i < joint.stamped.count; ++i)
+      if (joint.stamped.row[i].s == 1) *joint.stamped.row[i].lambda *= leak;
     stamp(view, joint);
+  }
+}
+
+void takeLinkedForces(const BatchView& view, const uint8_t* active) {
+  for (uint32_t n = 0; n < view.linked.count; ++n) {
+    const LinkedJoint& joint = view.linked.joint[n];
+    if (!active[joint.island]) continue;
+    for (int i = 0; i < joint.stamped.count; ++i) {
+      const LinkedRow& row = joint.stamped.row[i];
+      *row.lambda = rows::clamp(row.force + row.k * moved(joint, row, view, view.x), row.lower, row.upper);
+    }
   }
 }
 
@@ -185,9 +227,7 @@ void multiplyLinked(const BatchView& view, const uint8_t* active) {
     for (int i = 0; i < joint.stamped.count; ++i) {
       const LinkedRow& row = joint.stamped.row[i];
       if (!(row.k > 0)) continue;
-      float sum = 0;
-      for (int b = 0; b < joint.bodies; ++b)
-        if (joint.row[b] < view.bodies) sum += apply(row.j[b], readTwist(view.p, joint.row[b]));
+      const float sum = moved(joint, row, view, view.p);
       for (int b = 0; b < joint.bodies; ++b)
         if (joint.row[b] < view.bodies) addTwist(view.q, joint.row[b], row.j[b] * (row.k * sum));
     }

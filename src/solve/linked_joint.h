@@ -17,12 +17,15 @@ inline constexpr int kLinkRows = 7;  ///< most that one can emit: those of one c
 /// A row of the buffer. J about each body's centre of mass.
 struct LinkedRow {
   float C = 0, k = 0, s = 0, lower = 0, upper = 0;
+  float force = 0;  ///< of a stamped row
   float* lambda = nullptr;
   rows::Twist<float> j[kLinkBodies];
 };
 
 struct LinkedRows {
   int count = 0;
+  /// From each centre of mass to where the joint takes hold, for the geometric stiffness; zero of users' joints.
+  rows::V3<float> arm[kLinkBodies] = {};
   LinkedRow row[kLinkRows];
 };
 
@@ -34,8 +37,8 @@ struct PulleyRows {
   float ratio = 1;
   float held = 0;  ///< what the rope may grow in this step
   bool slack = true;
-  float k = 0, lambda = 0;
-  float lambdaAcross[4] = {};  ///< always 0
+  float k = 0, load = 0, lambda = 0;  ///< load as D6Axis::load
+  float lambdaAcross[4] = {};         ///< always 0
 };
 
 /// A sum over coordinates of scalar joints; its own coordinate counts from the step's start.
@@ -71,7 +74,8 @@ struct LinkedJoint {
   uint32_t slot = 0;    ///< of the world's joint
   uint32_t island = 0;  ///< of the batch
   int bodies = 0;
-  uint32_t row[kLinkBodies] = {};  ///< body rows
+  uint32_t row[kLinkBodies] = {};   ///< body rows
+  uint8_t first[kLinkBodies] = {};  ///< of a body that stands in the joint more than once: where it does so first
   PulleyRows pulley;
   CouplingRows coupling;
   CustomRows custom;
@@ -82,19 +86,26 @@ struct LinkedJoint {
 inline rows::PairRow<float> withoutJacobian(const LinkedRow& row) {
   return {row.C, {}, {}, row.k, row.s, row.lower, row.upper};
 }
-inline RowForce forceOf(const LinkedRow& row) { return forceOf(withoutJacobian(row), *row.lambda, false); }
+RowForce forceOf(const LinkedRow& row);
 
 /// The rows at the bodies' present displacements.
 void evaluate(LinkedJoint& joint, const BatchView& view, LinkedRows& out);
+/// J of a body, together wherever it stands in the joint; zero but at its first place.
+rows::Twist<float> jacobianOf(const LinkedJoint& joint, const LinkedRow& row, int body);
 /// J^T lambda on the first body, of the rows that `stamped` holds.
 rows::Twist<float> reactionOf(const LinkedJoint& joint);
-/// L of a coupling less what it was at the start, and its J by body.
-float couplingMeasure(const LinkedJoint& joint, const BatchView& view, rows::Twist<float> (&j)[kLinkBodies]);
+/// L of a coupling less what it was at the start, its J by body, and the arms.
+float couplingMeasure(const LinkedJoint& joint, const BatchView& view, rows::Twist<float> (&j)[kLinkBodies],
+                      rows::V3<float> (&arm)[kLinkBodies]);
 /// A user's body where it is now.
 CustomBody customBody(const CustomRows& custom, int body, const rows::Twist<float>& moved);
 
-/// Adds all to gradient and Hessian and keeps what the products need; with `dual` moves the multipliers first.
-void stampLinked(const BatchView& view, float leak, bool dual, const uint8_t* active);
+/// Adds all to gradient and Hessian and keeps what the products need; hard rows' multipliers first times `leak`.
+void stampLinked(const BatchView& view, float leak, const uint8_t* active);
+/// The multipliers become the forces of the linear solution x: what the curvature of C leaves of it, times a large k,
+/// is no force.
+void takeLinkedForces(const BatchView& view, const uint8_t* active);
+/// The same by the rows where the bodies are now, of block sweeps.
 void moveMultipliers(LinkedJoint& joint, const BatchView& view, float leak);
 /// q += their part of H p.
 void multiplyLinked(const BatchView& view, const uint8_t* active);

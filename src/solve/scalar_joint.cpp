@@ -11,11 +11,6 @@ namespace {
 using rows::PairRow;
 using rows::Twist;
 
-/// Of the stiffness of a row that no tree solves, by which an exact one-sided row weighs its violation against its
-/// multiplier: about the mass that it feels over h^2. By more, what Newton's step leaves of a curved C would release
-/// rows that push.
-constexpr float kActiveShare = 1e-3f;
-
 void stampLoop(const BatchView& view, const ScalarJoint& joint, const ScalarRows& list, const ScalarStamp& stamp) {
   const Twist<float> onA = shiftWrench(stamp.wrench, list.armA), onB = shiftWrench(stamp.wrench, list.armB);
   addTwist(view.gradient, joint.rowA, onA);

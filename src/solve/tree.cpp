@@ -6,6 +6,8 @@
 #include "solve/body_rows.h"
 #include "solve/geometric.h"
 #include "solve/scalar_joint.h"
+#include "solve/tree_fill.h"
+#include "solve/tree_parts.h"
 
 namespace avbd {
 
@@ -22,42 +24,6 @@ void readBlock(const float* row, float (&h)[6][6]) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) h[3 + i][j] = al[3 * i + j];
   h[3][3] = a[0], h[4][4] = a[1], h[5][5] = a[2], h[4][3] = a[3], h[5][3] = a[4], h[5][4] = a[5];
-}
-
-/// In place LDL^T of the lower triangle; the diagonal keeps inverse pivots. Only the first n rows.
-template <int kMax>
-void factorLdl(float (&a)[kMax][kMax], int n) {
-  for (int j = 0; j < n; ++j) {
-    const float inverse = rows::inversePivot(a[j][j]);
-    for (int i = j + 1; i < n; ++i) {
-      const float l = a[i][j] * inverse;
-      for (int k = j + 1; k <= i; ++k) a[i][k] -= l * a[k][j];
-    }
-    for (int i = j + 1; i < n; ++i) a[i][j] *= inverse;
-    a[j][j] = inverse;
-  }
-}
-
-template <int kMax>
-void solveLdl(const float (&a)[kMax][kMax], int n, float* x) {
-  for (int i = 1; i < n; ++i)
-    for (int j = 0; j < i; ++j) x[i] -= a[i][j] * x[j];
-  for (int i = 0; i < n; ++i) x[i] *= a[i][i];
-  for (int i = n - 2; i >= 0; --i)
-    for (int j = i + 1; j < n; ++j) x[i] -= a[j][i] * x[j];
-}
-
-/// The same for kColumns right-hand sides side by side.
-template <int kColumns, int kStride>
-void solveLdlColumns(const float (&a)[6][6], float (&x)[6][kStride]) {
-  for (int i = 1; i < 6; ++i)
-    for (int j = 0; j < i; ++j)
-      for (int c = 0; c < kColumns; ++c) x[i][c] -= a[i][j] * x[j][c];
-  for (int i = 0; i < 6; ++i)
-    for (int c = 0; c < kColumns; ++c) x[i][c] *= a[i][i];
-  for (int i = 4; i >= 0; --i)
-    for (int j = i + 1; j < 6; ++j)
-      for (int c = 0; c < kColumns; ++c) x[i][c] -= a[j][i] * x[j][c];
 }
 
 void fillJacobian(float (&j)[6], const rows::PairRow<float>& row, const V3<float>& arm, float sign) {
@@ -152,10 +118,6 @@ void maskLocked(const TreeJoint& joint, Rows& rows, const BatchView& v) {
   }
 }
 
-/// 1/k that S gets on its diagonal.
-float complianceOf(const TreeRows<6>&, int) { return 0; }
-float complianceOf(const MixedRows& rows, int i) { return rows.compliance[i]; }
-
 /// How many rows there are: known to the compiler where all joints of a kind have as many.
 template <int kFixed>
 int countOf(int m) {
@@ -167,17 +129,7 @@ template <int kFixed, class Rows>
 void eliminate(TreeNode& node, Rows& rows, TreeNode* parent) {
   constexpr int kColumns = kFixed > 0 ? (kFixed + 3) / 4 * 4 : Rows::kColumns;
   const int m = countOf<kFixed>(rows.m);
-  for (int k = 0; k < 6; ++k)
-    for (int i = 0; i < kColumns; ++i) rows.u[k][i] = i < m ? rows.jc[i][k] : 0.0f;
-  solveLdlColumns<kColumns>(node.h, rows.u);
-  for (int i = 0; i < m; ++i) {
-    float sum[kColumns] = {};
-    for (int k = 0; k < 6; ++k)
-      for (int j = 0; j < kColumns; ++j) sum[j] += rows.jc[i][k] * rows.u[k][j];
-    for (int j = 0; j <= i; ++j) rows.sFactor[i][j] = sum[j];
-    rows.sFactor[i][i] += complianceOf(rows, i);
-  }
-  factorLdl(rows.sFactor, m);
+  factorRows<kColumns>(node.h, rows, m);
   if (!parent) return;
   for (int k = 0; k < 6; ++k) {
     float column[Rows::kRows];
@@ -212,29 +164,16 @@ void descend(const TreeNode& node, Rows& rows, TreeNode* parent, bool violated) 
 }
 
 template <int kFixed, class Rows>
-void ascend(const TreeNode& node, Rows& rows, const float* parentZ, float* z) {
+void ascend(TreeNode& node, Rows& rows, const float* parentZ) {
   const int m = countOf<kFixed>(rows.m);
   for (int i = 0; i < m; ++i) {
     if (parentZ)
       for (int k = 0; k < 6; ++k) rows.mu[i] += rows.w[i][k] * parentZ[k];
     rows.total[i] += rows.mu[i];
   }
-  for (int k = 0; k < 6; ++k) z[k] = node.y[k];
-  solveLdl(node.h, 6, z);
+  solveLdl(node.h, 6, node.y);
   for (int k = 0; k < 6; ++k)
-    for (int i = 0; i < m; ++i) z[k] -= rows.u[k][i] * rows.mu[i];
-}
-
-/// Calls f.operator()<rows known to the compiler, or 0>(rows of the joint).
-template <class F>
-void withRows(Forest& forest, TreeJoint& joint, F&& f) {
-  if (joint.mixed >= 0) {
-    f.template operator()<0>(forest.mixed[static_cast<size_t>(joint.mixed)]);
-  } else if (joint.angular) {
-    f.template operator()<6>(static_cast<TreeRows<6>&>(joint));
-  } else {
-    f.template operator()<3>(static_cast<TreeRows<6>&>(joint));
-  }
+    for (int i = 0; i < m; ++i) node.y[k] -= rows.u[k][i] * rows.mu[i];
 }
 
 }  // namespace
@@ -251,13 +190,23 @@ void Forest::stamp(const BatchView& view, const uint8_t* active) {
   }
 }
 
+void Forest::clear() {
+  nodes.clear(), joints.clear(), mixed.clear();
+  fills.clear(), filledPairs.clear(), filledLinks.clear();
+}
+
 void Forest::factor(const BatchView& view, const uint8_t* active) {
+  if (!fills.empty()) stampFill(view, *this, active);
   for (TreeNode& node : nodes)
     if (active[node.island]) readBlock(view.hessian + kHessianRow * node.row, node.h);
   for (size_t i = nodes.size(); i-- > 0;) {
     TreeNode& node = nodes[i];
     if (!active[node.island]) continue;
     factorLdl(node.h, 6);
+    if (node.fillCount > 0) {
+      eliminateFilled(*this, node);
+      continue;
+    }
     if (node.joint < 0) continue;
     TreeJoint& joint = joints[static_cast<size_t>(node.joint)];
     TreeNode* parent = node.parent >= 0 ? &nodes[static_cast<size_t>(node.parent)] : nullptr;
@@ -274,7 +223,12 @@ void Forest::down(const BatchView& view, const uint8_t* active, bool violated) {
   }
   for (size_t i = nodes.size(); i-- > 0;) {
     TreeNode& node = nodes[i];
-    if (node.joint < 0 || !active[node.island]) continue;
+    if (!active[node.island]) continue;
+    if (node.fillCount > 0) {
+      descendFilled(*this, node, violated);
+      continue;
+    }
+    if (node.joint < 0) continue;
     TreeJoint& joint = joints[static_cast<size_t>(node.joint)];
     TreeNode* parent = node.parent >= 0 ? &nodes[static_cast<size_t>(node.parent)] : nullptr;
     withRows(*this, joint, [&]<int kFixed>(auto& rows) { descend<kFixed>(node, rows, parent, violated); });
@@ -284,18 +238,18 @@ void Forest::down(const BatchView& view, const uint8_t* active, bool violated) {
 void Forest::up(const BatchView& view, const uint8_t* active) {
   for (TreeNode& node : nodes) {
     if (!active[node.island]) continue;
-    float z[6];
-    if (node.joint < 0) {
-      for (int k = 0; k < 6; ++k) z[k] = node.y[k];
-      solveLdl(node.h, 6, z);
+    // What stands in y afterwards is read by those eliminated before.
+    if (node.fillCount > 0) {
+      ascendFilled(*this, node);
+    } else if (node.joint < 0) {
+      solveLdl(node.h, 6, node.y);
     } else {
       TreeJoint& joint = joints[static_cast<size_t>(node.joint)];
       const float* parentZ = node.parent >= 0 ? nodes[static_cast<size_t>(node.parent)].y : nullptr;
-      withRows(*this, joint, [&]<int kFixed>(auto& rows) { ascend<kFixed>(node, rows, parentZ, z); });
+      withRows(*this, joint, [&]<int kFixed>(auto& rows) { ascend<kFixed>(node, rows, parentZ); });
     }
     float* out = view.z + 8 * node.row;
-    for (int k = 0; k < 3; ++k) out[k] = z[k], out[4 + k] = z[3 + k];
-    for (int k = 0; k < 6; ++k) node.y[k] = z[k];  // children read it
+    for (int k = 0; k < 3; ++k) out[k] = node.y[k], out[4 + k] = node.y[3 + k];
   }
 }
 

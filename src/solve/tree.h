@@ -7,6 +7,7 @@
 // which solves H x + J^T mu = r, J x = b for block-diagonal H.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solve/batch.h"
@@ -52,11 +53,39 @@ struct MixedRows : TreeRows<kMixedRows> {
 
 struct TreeNode {
   uint32_t row = 0;
-  uint32_t island = 0;  ///< of the batch
-  int32_t parent = -1;  ///< node
-  int32_t joint = -1;   ///< to the parent or to the world; -1 for a free root
-  float h[6][6];        ///< block, then its LDL^T
-  float y[6];           ///< right side on the way down
+  uint32_t island = 0;                    ///< of the batch
+  int32_t parent = -1;                    ///< node
+  int32_t joint = -1;                     ///< to the parent or to the world; -1 for a free root
+  uint32_t fillBegin = 0, fillCount = 0;  ///< its front, in Forest::fills; 0: its parent alone
+  float h[6][6];                          ///< block, then its LDL^T
+  float y[6];                             ///< right side on the way down
+};
+
+/// A block of the factor beside the tree, of a node and of one that is eliminated after it (tree_fill.h).
+struct TreeFill {
+  int32_t node = -1;       ///< the other one
+  float h[6][6];           ///< of H: rows of the eliminated node, columns of the other
+  float v[6][6];           ///< Hc^-1 h
+  float r[kMixedRows][6];  ///< of the rows of the node's joint: Jp - Jc v
+  float w[kMixedRows][6];  ///< S^-1 r
+};
+
+/// A pair of bodies that rows outside of the tree couple, and the block that they fill.
+struct FilledPair {
+  enum class Kind : uint8_t { Ball, Fixed, Scalar };
+  Kind kind = Kind::Ball;
+  bool childIsA = true;  ///< A is eliminated first
+  uint32_t lane = 0;     ///< among those of its kind
+  uint32_t island = 0;
+  uint32_t fill = 0;  ///< in Forest::fills
+};
+
+/// The same of two of a linked joint's bodies.
+struct FilledLink {
+  uint32_t linked = 0;       ///< in BatchView::linked
+  int child = 0, other = 0;  ///< of its bodies
+  uint32_t island = 0;
+  uint32_t fill = 0;
 };
 
 /// All trees of a batch; parents stand before children. `active` tells of each island of the batch whether it takes
@@ -66,6 +95,12 @@ class Forest {
   std::vector<TreeNode> nodes;
   std::vector<TreeJoint> joints;
   std::vector<MixedRows> mixed;
+  std::vector<TreeFill> fills;
+  std::vector<FilledPair> filledPairs;
+  std::vector<FilledLink> filledLinks;
+
+  void clear();
+  std::span<TreeFill> front(const TreeNode& node) { return {fills.data() + node.fillBegin, node.fillCount}; }
 
   /// Adds the joints' forces and geometric stiffness to gradient, hessian and diagonal, and keeps J and C.
   void stamp(const BatchView& view, const uint8_t* active);

@@ -6,14 +6,15 @@
 
 namespace avbd {
 
-void updateRows(WorldData&, StepData& step) {
+void updateRows(WorldData& world, StepData& step) {
   SolveSettings settings = step.solve;
   settings.contactLeak = 1;
   for (size_t i = 0; i < step.batches.size(); ++i) {
     step.backend->updateRows(step.view(i), settings);
     // Couplings read where scalar joints are, not their multipliers: the order is free.
     updateScalar(step.view(i));
-    updateLinked(step.view(i));
+    // The Krylov solver leaves whole forces.
+    if (world.def.primalSolver == PrimalSolver::BlockSweep) updateLinked(step.view(i));
   }
 }
 

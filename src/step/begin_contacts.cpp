@@ -8,6 +8,8 @@ namespace avbd {
 
 namespace {
 
+constexpr float kGroundedLoad = 4, kGroundedMost = 200;
+
 /// Penetration beyond the slop, of which only a share is corrected in one step and never faster than allowed; or the
 /// whole gap, so that nothing stops short of touching.
 float normalBias(const WorldData& world, const StepData& step, float separation) {
@@ -55,8 +57,11 @@ void moveSurface(const StepData& step, const PairData& pair, Vec3 belt, rows::Co
 rows::Contact<float> contactRows(const WorldData& world, const StepData& step, PairData& pair) {
   rows::Contact<float> c{};
   c.n = toRow(pair.normal), c.t1 = toRow(pair.t1), c.t2 = toRow(pair.t2);
-  c.loadStiffness = 1 / step.loadDepth;
-  c.stiffest = 2 * step.islands[islandOfPair(step, pair)].mass / (step.h * step.h);
+  // What stands on something that does not move couples nothing, so its stiffness costs the conjugate gradients
+  // nothing, and a tall load on a light base needs it: it feels the lever.
+  const bool grounded = !isDynamic(world, pair.bodyA) || !isDynamic(world, pair.bodyB);
+  c.loadStiffness = (grounded ? kGroundedLoad : 1) / step.loadDepth;
+  c.stiffest = (grounded ? kGroundedMost : 2) * step.islands[islandOfPair(step, pair)].mass / (step.h * step.h);
   Vec3 reference;
   for (int i = 0; i < pair.pointCount; ++i) reference = reference + pair.manifold.points[i].position;
   reference = reference * (1.0f / static_cast<float>(pair.pointCount));

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "step/begin_rows.h"
+#include "step/coordinate_rows.h"
 #include "step/joint_side.h"
 
 namespace avbd {
@@ -19,7 +20,8 @@ rows::FixedJoint<float> jointRows(const WorldData& world, const StepData& step, 
   rows.ball.tau =
       world.def.jointArmBlend >= 0 ? world.def.jointArmBlend : armBlend(step, a, b, length(rows.ball.lambda));
   const float w = a.invMass + b.invMass + a.turning * dot(a.arm, a.arm) + b.turning * dot(b.arm, b.arm);
-  rows.ball.k = w > 0 ? kJointFactor / (w * step.h * step.h) : 0;
+  rows.ball.k = stiffnessInUse(step, w);
+  rows.ball.load = loadInUse(step, w, a.invMass + b.invMass);
   if (joint.type != JointType::Fixed) return rows;
   rows.q0 = a.axes * conjugate(b.axes);
   const rows::V3<float> turned = logQuat(rows.q0);
@@ -27,9 +29,12 @@ rows::FixedJoint<float> jointRows(const WorldData& world, const StepData& step, 
   rows.lambda = {joint.lambda[3], joint.lambda[4], joint.lambda[5]};
   const rows::Sym3<float> turning = a.invInertia + b.invInertia;
   const float wAngular = (turning.xx + turning.yy + turning.zz) / 3;
-  rows.kAngular = wAngular > 0 ? kJointFactor / (wAngular * step.h * step.h) : 0;
+  rows.kAngular = stiffnessInUse(step, wAngular);
+  rows.load = loadInUse(step, wAngular, a.invMass + b.invMass);
   return rows;
 }
+
+constexpr float kTetFactor = 1000;  ///< as kJointFactor, for what conjugate gradients alone solve
 
 double volumeOf(const WorldData& world, const JointData& joint) {
   const auto edge = [&](int i) { return world.bodies[joint.body[i]].position - world.bodies[joint.body[0]].position; };
@@ -51,7 +56,7 @@ rows::TetVolume<float> tetRows(const WorldData& world, const StepData& step, con
     if (body.type == BodyType::Dynamic) w += dot(j[i], j[i]) / (36 * body.mass);
   }
   const double excess = volumeOf(world, joint) - joint.restVolume;
-  const float rho = w > 0 ? kJointFactor / (w * step.h * step.h) : 0;
+  const float rho = w > 0 ? kTetFactor / (w * step.h * step.h) : 0;
   const bool hard = joint.stiffness <= 0;
   tet.bias = static_cast<float>(hard ? (1 - step.alpha) * excess : excess);
   tet.k = hard ? rho : joint.stiffness * rho / (joint.stiffness + rho);
@@ -83,6 +88,7 @@ void fillJoints(const WorldData& world, StepData& step) {
     for (TreeJoint& joint : step.forests[i].joints)
       if (joint.mixed < 0) joint.rows = jointRows(world, step, world.joints[joint.slot]);
   fillScalarJoints(world, step);
+  weighAccelerationDrives(world, step);
   fillLinkedJoints(world, step);
 }
 

@@ -29,6 +29,15 @@ float speedAlong(const WorldData& world, uint32_t slot, const Twist<float>& j) {
   return dot(j.lin, toRow(world.bodies[slot].linearVelocity)) + dot(j.ang, toRow(world.bodies[slot].angularVelocity));
 }
 
+/// Sum of the bodies' inverse masses.
+float massless(const WorldData& world, const LinkedJoint& joint) {
+  float sum = 0;
+  forEachBody(world, joint.slot, [&](uint32_t slot) {
+    if (isDynamic(world, slot)) sum += 1 / world.bodies[slot].mass;
+  });
+  return sum;
+}
+
 void fillPulley(const WorldData& world, const StepData& step, LinkedJoint& joint) {
   const JointData& data = world.joints[joint.slot];
   const LinkData& link = world.links[joint.slot];
@@ -48,6 +57,7 @@ void fillPulley(const WorldData& world, const StepData& step, LinkedJoint& joint
   const float beyond = whole - link.max;
   pulley.held = beyond > 0 || !link.slack ? -corrected(step, beyond, world.def.maxDepenetrationSpeed) : -beyond;
   pulley.k = stiffnessInUse(step, w);
+  pulley.load = loadInUse(step, w, massless(world, joint));
   pulley.lambda = data.lambda[0];
 }
 
@@ -63,7 +73,8 @@ void fillCoupling(const WorldData& world, StepData& step, const BatchView& view,
     coupling.start += term.curve.value(static_cast<double>(scalar.rows.axis[term.axis].start));
   }
   Twist<float> j[kLinkBodies];
-  couplingMeasure(joint, view, j);
+  V3<float> arm[kLinkBodies];
+  couplingMeasure(joint, view, j, arm);
   D6Axis axis = link.axis;
   CoordinateState at{axis, link.lambda};
   int body = 0;
@@ -71,7 +82,7 @@ void fillCoupling(const WorldData& world, StepData& step, const BatchView& view,
     at.w += inverseMass(world, slot, j[body]);
     at.speed += speedAlong(world, slot, j[body++]);
   });
-  at.chordSpeed = at.speed;
+  at.chordSpeed = at.speed, at.massless = massless(world, joint);
   at.lock = link.rest - coupling.start, at.force = link.force;
   at.correction = world.def.maxDepenetrationSpeed / world.def.lengthUnit;
   // Its coordinate counts from the step's start.
@@ -104,6 +115,8 @@ void fillCustom(const WorldData& world, const StepData& step, const BatchView& v
     float w = 0;
     for (int b = 0; b < link.bodies; ++b) w += inverseMass(world, data.body[b], row.j[b]);
     custom.rho[i] = stiffnessInUse(step, w);
+    if (!(row.upper < rows::kInfinity && row.lower > -rows::kInfinity))
+      custom.rho[i] = rows::stiffnessUnder(custom.rho[i], loadInUse(step, w, massless(world, joint)), data.lambda[i]);
     // One-sided rows that do not push yet may go all the way.
     const bool open = (row.lower == 0 && row.C < 0) || (row.upper == 0 && row.C > 0);
     custom.held[i] = open ? 0 : row.C * step.alpha;

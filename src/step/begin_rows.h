@@ -21,11 +21,17 @@ void fillBodies(const WorldData& world, StepData& step);
 void fillContacts(WorldData& world, StepData& step);
 void fillJoints(const WorldData& world, StepData& step);
 void fillScalarJoints(const WorldData& world, StepData& step);
+/// Acceleration drives of trees, after the scalar joints: by the inertia of all that hangs on them.
+void weighAccelerationDrives(const WorldData& world, StepData& step);
 void fillLinkedJoints(const WorldData& world, StepData& step);  ///< after the scalar ones
 
 /// Body row that a joint or pair names in its batch.
 uint32_t rowInBatch(const WorldData& world, StepData& step, BatchRange& batch, uint32_t body);
 /// Chooses which joints of a batch its exact trees hold; the others get lanes of their own.
 void plantForest(const WorldData& world, StepData& step, BatchRange& batch);
+/// Gives the loops of a batch to its forest's factor where that stays narrow.
+void fillForest(StepData& step, const BatchRange& batch, Forest& forest);
+/// Leaves all of them to iterations.
+void leaveLoops(StepData& step, const BatchRange& batch);
 
 }  // namespace avbd

@@ -52,6 +52,7 @@ void fillAxis(const WorldData& world, const StepData& step, const Frame& frame, 
   const Felt felt = feltBy(frame, frame.at.lin[i], frame.at.ang[i]);
   CoordinateState at{data.axis[i], data.lambda[i]};
   at.chordSpeed = data.axis[i].armature > 0 ? chordSpeed(step, frame, joint.rows, i) : felt.speed;
+  at.massless = frame.a.invMass + frame.b.invMass;
   at.axis = i, at.speed = felt.speed, at.w = felt.w, at.force = data.force[i], at.inTree = frame.inTree;
   at.correction = world.def.maxDepenetrationSpeed / (i < 3 ? 1 : world.def.lengthUnit);
   fillCoordinate(world, step, at, joint.axes, joint.rows.axis[i]);
@@ -87,16 +88,15 @@ void fillSlerp(const StepData& step, const Frame& frame, const D6Data& data, Sca
   const SlerpDrive& drive = data.slerp;
   const V3<float>& axis = frame.at.ang[3];
   const float w = dot(axis, frame.a.invInertia * axis) + dot(axis, frame.b.invInertia * axis);
-  const float scale = drive.acceleration && w > 0 ? 1 / w : 1;
-  const float stiffness = drive.stiffness * scale, damping = drive.damping * scale;
-  const float whole = stiffness + damping / step.h;
+  const float inertia = drive.acceleration && w > 0 ? 1 / w : 1;
+  const float whole = (drive.stiffness + drive.damping / step.h) * inertia;
   if (!(whole > 0)) return;
   joint.axes.slerp = true;
   rows::D6Slerp<float>& row = joint.rows.slerp;
   row.rotation = toRow(drive.rotation);
   const Twist<float> still = rows::zeroTwist<float>();
   const V3<float> start = joint.rows.slerpMeasure(still, still);
-  row.target = start + (toRow(drive.velocity) * damping - start * stiffness) * (1 / whole);
+  row.target = start + (toRow(drive.velocity) * drive.damping - start * drive.stiffness) * (inertia / whole);
   const ElasticRow e = elasticRow(whole, stiffnessInUse(step, w), frame.inTree);
   row.k = e.k, row.s = e.s, row.most = drive.maxForce;
   row.lambda = toRow(data.slerpLambda);
@@ -166,12 +166,12 @@ void fillDistance(const WorldData& world, const StepData& step, ScalarJoint& joi
   const D6Axis axis{AxisMotion::Free, {link.min, link.max, data.stiffness, link.damping}, {}, 0};
   CoordinateState at{axis, link.lambda};
   at.speed = at.chordSpeed = felt.speed, at.w = felt.w, at.inTree = frame.inTree,
-  at.correction = world.def.maxDepenetrationSpeed;
+  at.correction = world.def.maxDepenetrationSpeed, at.massless = frame.a.invMass + frame.b.invMass;
   rows::D6Axes axes;
   rows::D6Axis<float> x{};
   x.start = rows.start;
   fillCoordinate(world, step, at, axes, x);
-  rows.k = x.k, rows.s = x.s, rows.lower = x.lower, rows.upper = x.upper;
+  rows.k = x.k, rows.s = x.s, rows.load = x.load, rows.lower = x.lower, rows.upper = x.upper;
   rows.lambdaLower = x.lambdaLower, rows.lambdaUpper = x.lambdaUpper;
   rows.hasLower = link.min > 0 ? 1 : 0, rows.hasUpper = link.max < rows::kInfinity ? 1 : 0;
   if (link.min < link.max) return;
@@ -180,7 +180,7 @@ void fillDistance(const WorldData& world, const StepData& step, ScalarJoint& joi
   if (data.stiffness > 0) {
     const float whole = data.stiffness + link.damping / step.h;
     const ElasticRow e = elasticRow(whole, stiffnessInUse(step, felt.w), frame.inTree);
-    rows.k = e.k, rows.s = e.s;
+    rows.k = e.k, rows.s = e.s, rows.load = 0;
     rows.upper = rows.start - (rows.start - link.max) * (data.stiffness / whole);
   }
   rows.lambdaUpper = link.lambda.lock + link.lambda.lower + link.lambda.upper;

@@ -10,6 +10,9 @@ namespace avbd {
 
 namespace {
 
+/// Of the depth at which a contact holds its load, a loaded joint gives way by this part.
+constexpr float kLoadsPerFall = 48;
+
 bool isLimited(const JointLimit& limit) { return limit.lower > -rows::kInfinity || limit.upper < rows::kInfinity; }
 
 /// A hard stop: inside it is where it is, beyond it a part of the way back is asked for. What meets it fast enough
@@ -49,6 +52,7 @@ void fillLimit(const WorldData& world, const StepData& step, const CoordinateSta
   const auto bit = static_cast<uint8_t>(1 << at.axis);
   if (axis.limit.stiffness > 0) {
     axes.limited |= bit;
+    x.load = 0;
     fillSoftStops(step, axis.limit, x, x.k, at.inTree);
     return;
   }
@@ -68,17 +72,14 @@ void fillLimit(const WorldData& world, const StepData& step, const CoordinateSta
 void fillDrive(const StepData& step, const CoordinateState& at, float rho, rows::D6Axes& axes, rows::D6Axis<float>& x) {
   const D6Axis& axis = at.definition;
   const JointDrive& drive = axis.drive;
-  const float scale = drive.acceleration && at.w > 0 ? 1 / at.w + axis.armature : 1;
-  const float stiffness = drive.stiffness * scale, damping = drive.damping * scale;
-  const float whole = stiffness + damping / step.h;
-  if (!(whole > 0)) {
+  if (!(drive.stiffness + drive.damping > 0)) {
     x.force += std::clamp(drive.force, -drive.maxForce, drive.maxForce);
     return;
   }
   axes.driven |= static_cast<uint8_t>(1 << at.axis);
-  const ElasticRow e = elasticRow(whole, rho, at.inTree);
-  x.kDrive = e.k, x.sDrive = e.s, x.driveMost = drive.maxForce;
-  x.target = x.start + (stiffness * (drive.position - x.start) + damping * drive.velocity + drive.force) / whole;
+  const float inertia = drive.acceleration && at.w > 0 ? 1 / at.w + axis.armature : 1;
+  const ElasticRow e = elasticRow(fillDriveOf(step, drive, inertia, x), rho, at.inTree);
+  x.kDrive = e.k, x.sDrive = e.s;
 }
 
 /// Spring, damper, and inertia: k = a / h^2 about where the coordinate would go unhindered.
@@ -104,6 +105,19 @@ ElasticRow elasticRow(float stiffness, float rho, bool inTree) {
 
 float stiffnessInUse(const StepData& step, float w) { return w > 0 ? kJointFactor / (w * step.h * step.h) : 0; }
 
+float loadInUse(const StepData& step, float w, float massless) {
+  if (!(w > 0) || !(massless > 0)) return 0;
+  return kLoadsPerFall / (step.loadDepth * std::sqrt(w / massless));
+}
+
+float fillDriveOf(const StepData& step, const JointDrive& drive, float inertia, rows::D6Axis<float>& x) {
+  const float stiffness = drive.stiffness * inertia, damping = drive.damping * inertia;
+  const float whole = stiffness + damping / step.h;
+  x.driveMost = drive.maxForce;
+  x.target = x.start + (stiffness * (drive.position - x.start) + damping * drive.velocity + drive.force) / whole;
+  return whole;
+}
+
 void fillCoordinate(const WorldData& world, const StepData& step, const CoordinateState& at, rows::D6Axes& axes,
                     rows::D6Axis<float>& x) {
   const D6Axis& axis = at.definition;
@@ -114,6 +128,7 @@ void fillCoordinate(const WorldData& world, const StepData& step, const Coordina
   x.lambdaDrive = lambda.drive, x.lambdaFriction = lambda.friction, x.lambdaPassive = lambda.passive;
   x.lambdaForce = 0;
   x.k = rho, x.s = 1;
+  x.load = at.inTree ? 0 : loadInUse(step, at.w, at.massless);
   if (axis.motion == AxisMotion::Locked) {
     axes.locked |= bit;
     const float off = static_cast<float>(static_cast<double>(x.start) - at.lock);

@@ -7,8 +7,6 @@
 
 namespace avbd {
 
-inline constexpr float kJointFactor = 1000;  ///< rho = this / (w h^2) for rows that no tree solves
-
 struct JointSide {
   rows::V3<float> arm{0, 0, 0};      ///< world axes; zero of the world
   Vec3d anchor;                      ///< world

@@ -11,6 +11,7 @@
 #include "solve/linked_joint.h"
 #include "solve/scalar_joint.h"
 #include "solve/sweep.h"
+#include "solve/tree_response.h"
 #include "step/free_motion.h"
 #include "world/world_data.h"
 
@@ -57,16 +58,36 @@ struct Bounce {
 
 /// A tree joint as a body row sees it, in a list that starts at ForestScratch::first.
 struct ForestEdge {
-  uint32_t joint = 0;      ///< index in Forest::joints
+  uint32_t joint = 0;      ///< index in ForestScratch::joints
   uint32_t neighbour = 0;  ///< row
   uint32_t next = kNone;   ///< edge of the same row
 };
 
+/// A joint between two bodies, or a body and the world, before it has a place.
+struct PlannedJoint {
+  uint32_t rowA = 0, rowB = 0, slot = 0, island = 0;  ///< as in TreeJoint
+  bool angular = false, childIsA = true;              ///< likewise
+  bool eligible = false;                              ///< a tree can hold it
+  bool inTree = false;                                ///< one does
+  bool scalar = false;
+  uint32_t lane = 0;  ///< among those of its kind, over all batches
+};
+
+/// A node's partner in the factor, in a list that starts at ForestScratch::frontOf.
+struct FrontLink {
+  uint32_t other = 0;     ///< node
+  uint32_t next = kNone;  ///< link of the same node
+};
+
 struct ForestScratch {
-  std::vector<uint32_t> set;    ///< union-find over the rows of a batch and the world
+  std::vector<PlannedJoint> joints;
   std::vector<uint32_t> first;  ///< by row: its first edge
   std::vector<ForestEdge> edges;
-  std::vector<int32_t> nodeOf;  ///< by row
+  std::vector<int32_t> nodeOf;    ///< by row
+  std::vector<uint32_t> frontOf;  ///< by node: its first link; kNone: its parent is all
+  std::vector<FrontLink> links;
+  std::vector<int32_t> front;    ///< of one node
+  std::vector<uint32_t> blocks;  ///< by island: what its fill costs
 };
 
 /// Colours of the dynamic bodies, and what finding them needs; empty unless the block sweep runs.
@@ -200,6 +221,7 @@ struct StepData {
   AlignedVector<Tile<ScaledOp>> fullOp;
   std::vector<Forest> forests;  ///< the first forestCount are in use
   uint32_t forestCount = 0;
+  std::vector<TreeResponse> response;  ///< of one forest
   ForestScratch planting;
   KrylovScratch krylov;
   SweepPlan sweep;

@@ -17,6 +17,7 @@ struct BallJoint {
   V3<R> bias;     ///< (1 - alpha) times the gap at the start
   R tau, adapts;  ///< armBlendAt()
   R k;            ///< [N/m]
+  R load;         ///< [1/m]: what carries lambda is at least lambda times this stiff
   V3<R> lambda;   ///< [N]
 
   template <class Sink>
@@ -27,9 +28,10 @@ struct BallJoint {
     const V3<R> C = bias + (dA.lin - dB.lin) + (endA - rA) - (endB - rB);
     const R o = zero<R>(), one = splat<R>(1), inf = splat<R>(kInfinity);
     const V3<R> none{o, o, o};
-    sink.emit(PairRow<R>{C.x, V3<R>{one, o, o}, none, k, one, -inf, inf}, lambda.x);
-    sink.emit(PairRow<R>{C.y, V3<R>{o, one, o}, none, k, one, -inf, inf}, lambda.y);
-    sink.emit(PairRow<R>{C.z, V3<R>{o, o, one}, none, k, one, -inf, inf}, lambda.z);
+    const R stiff = stiffnessUnder(k, load, length(lambda));
+    sink.emit(PairRow<R>{C.x, V3<R>{one, o, o}, none, stiff, one, -inf, inf}, lambda.x);
+    sink.emit(PairRow<R>{C.y, V3<R>{o, one, o}, none, stiff, one, -inf, inf}, lambda.y);
+    sink.emit(PairRow<R>{C.z, V3<R>{o, o, one}, none, stiff, one, -inf, inf}, lambda.z);
   }
 };
 

@@ -41,6 +41,7 @@ struct D6Axis {
   R held;                               ///< of a lock: what C leaves uncorrected
   R lower, upper;                       ///< of a limit: coordinate at which its row begins to push
   R k, s;                               ///< of lock and limits: stiffness in use and share, 1 where hard
+  R load;                               ///< of hard ones: what carries lambda is at least lambda times this stiff
   R target, kDrive, sDrive, driveMost;  ///< of a drive: where C is 0, stiffness in use, share, bound
   R kFriction, frictionMost;
   R rest, kPassive, sPassive;  ///< of what resists by itself
@@ -80,11 +81,12 @@ struct D6Measure {
 template <class R, class Emit>
 AVBD_INLINE void axisRows(const D6Axes& axes, int i, D6Axis<R>& x, const R& q, Emit&& emit) {
   const R inf = splat<R>(kInfinity), one = splat<R>(1), o = zero<R>();
-  if ((axes.locked | axes.frozen) >> i & 1) emit(q - x.held, x.k, one, -inf, inf, x.lambda);
+  if ((axes.locked | axes.frozen) >> i & 1)
+    emit(q - x.held, stiffnessUnder(x.k, x.load, x.lambda), one, -inf, inf, x.lambda);
   if (axes.locked >> i & 1) return;
   if (axes.limited >> i & 1) {
-    emit(q - x.lower, x.k, x.s, -inf, o, x.lambdaLower);
-    emit(q - x.upper, x.k, x.s, o, inf, x.lambdaUpper);
+    emit(q - x.lower, stiffnessUnder(x.k, x.load, x.lambdaLower), x.s, -inf, o, x.lambdaLower);
+    emit(q - x.upper, stiffnessUnder(x.k, x.load, x.lambdaUpper), x.s, o, inf, x.lambdaUpper);
   }
   if (axes.driven >> i & 1) emit(q - x.target, x.kDrive, x.sDrive, -x.driveMost, x.driveMost, x.lambdaDrive);
   if (axes.rubbing >> i & 1) emit(q - x.start, x.kFriction, one, -x.frictionMost, x.frictionMost, x.lambdaFriction);
@@ -242,8 +244,10 @@ struct D6Joint {
     const R o = zero<R>(), one = splat<R>(1), inf = splat<R>(kInfinity);
     const V3<R> none = zeroV3<R>(), unit[3] = {{one, o, o}, {o, one, o}, {o, o, one}};
     const R c[3] = {C.x, C.y, C.z};
-    for (int i = 0; i < 3; ++i)
-      sink.emit(PairRow<R>{c[i], none, -unit[i], axis[3 + i].k, one, -inf, inf}, axis[3 + i].lambda);
+    for (int i = 0; i < 3; ++i) {
+      const R stiff = stiffnessUnder(axis[3 + i].k, axis[3 + i].load, axis[3 + i].lambda);
+      sink.emit(PairRow<R>{c[i], none, -unit[i], stiff, one, -inf, inf}, axis[3 + i].lambda);
+    }
   }
 
   template <class Sink>

@@ -19,6 +19,7 @@ struct Distance {
   R start;           ///< distance at the start of the step
   R lower, upper;    ///< at which the rows begin to act
   R k, s;            ///< stiffness in use and share, 1 where hard
+  R load;            ///< [1/m] as D6Axis::load
   R lambdaLower, lambdaUpper;
   R lambdaAcross[2];     ///< always 0
   R hasLower, hasUpper;  ///< 1 or 0
@@ -58,12 +59,13 @@ struct Distance {
       sink.emit(PairRow<R>{o, t1, none, across, o, -inf, inf}, lambdaAcross[0]);
       sink.emit(PairRow<R>{o, t2, none, across, o, -inf, inf}, lambdaAcross[1]);
     }
+    const R stiff = stiffnessUnder(k, load, force);
     if (rigid > 0.0f) {
-      sink.emit(PairRow<R>{q - upper, -n, none, k, s, -inf, inf}, lambdaUpper);
+      sink.emit(PairRow<R>{q - upper, -n, none, stiff, s, -inf, inf}, lambdaUpper);
       return;
     }
-    if (hasLower > 0.0f) sink.emit(PairRow<R>{q - lower, -n, none, k, s, -inf, o}, lambdaLower);
-    if (hasUpper > 0.0f) sink.emit(PairRow<R>{q - upper, -n, none, k, s, o, inf}, lambdaUpper);
+    if (hasLower > 0.0f) sink.emit(PairRow<R>{q - lower, -n, none, stiff, s, -inf, o}, lambdaLower);
+    if (hasUpper > 0.0f) sink.emit(PairRow<R>{q - upper, -n, none, stiff, s, o, inf}, lambdaUpper);
   }
 };
 

@@ -16,6 +16,7 @@ struct FixedJoint {
   Q4<R> q0;
   V3<R> held;    ///< alpha log(q0) [rad]
   R kAngular;    ///< [N m/rad]
+  R load;        ///< [1/rad]: as the ball joint's
   V3<R> lambda;  ///< [N m]
 
   template <class Sink>
@@ -24,9 +25,10 @@ struct FixedJoint {
     const V3<R> C = logQuat(expQuat(dA.ang) * q0 * conjugate(expQuat(dB.ang))) - held;
     const R o = zero<R>(), one = splat<R>(1), inf = splat<R>(kInfinity);
     const V3<R> none{o, o, o};
-    sink.emit(PairRow<R>{C.x, none, V3<R>{one, o, o}, kAngular, one, -inf, inf}, lambda.x);
-    sink.emit(PairRow<R>{C.y, none, V3<R>{o, one, o}, kAngular, one, -inf, inf}, lambda.y);
-    sink.emit(PairRow<R>{C.z, none, V3<R>{o, o, one}, kAngular, one, -inf, inf}, lambda.z);
+    const R stiff = stiffnessUnder(kAngular, load, length(lambda));
+    sink.emit(PairRow<R>{C.x, none, V3<R>{one, o, o}, stiff, one, -inf, inf}, lambda.x);
+    sink.emit(PairRow<R>{C.y, none, V3<R>{o, one, o}, stiff, one, -inf, inf}, lambda.y);
+    sink.emit(PairRow<R>{C.z, none, V3<R>{o, o, one}, stiff, one, -inf, inf}, lambda.z);
   }
 };
 

@@ -41,6 +41,14 @@ AVBD_INLINE Twist<R> relativeMotion(const Twist<R>& dA, const Twist<R>& dB, cons
   return {dA.lin + cross(dA.ang, armA) - dB.lin - cross(dB.ang, armB), dA.ang - dB.ang};
 }
 
+/// The stiffness in use of a hard row that no tree solves: k, or where it carries more, `load` times its multiplier; a
+/// row that a spike has reached gets no stiffer than a float can hold beside the mass.
+template <class R>
+AVBD_INLINE R stiffnessUnder(const R& k, const R& load, const R& lambda) {
+  constexpr float kMost = 300;
+  return max(k, min(k * kMost, load * abs(lambda)));
+}
+
 /// [rad] that a body may turn in a step before joints let their arms in J follow; at twice that they are halfway.
 inline constexpr float kFreeTurn = 0.3f;
 
