@@ -62,6 +62,7 @@ RunFigures measureRun(const Model& model, int64_t steps, double dt) {
   for (const BodyId id : layout.bodies) (world.type(id) == BodyType::Static ? f.statics : f.bodies) += 1;
   f.shapes = world.shapeCount();
   f.joints = world.jointCount();
+  f.probes = model.probes.size();
   f.contactPoints = world.report().points;
   f.steps = steps;
   f.dt = dt;

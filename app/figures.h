@@ -16,6 +16,7 @@ struct RunFigures {
   std::string scene;
   size_t bodies = 0;  ///< that can move; static ones are counted apart
   size_t statics = 0, shapes = 0, joints = 0, contactPoints = 0;
+  size_t probes = 0;  ///< of the model
   int64_t steps = 0;
   double dt = 0;
   int workers = 1;

@@ -15,7 +15,8 @@ constexpr const char* kRobot = R"(<mujoco model="robot"><option timestep="0.01" 
   <asset><mesh name="tetra" vertex="0 0 0 2 0 0 0 1 0 0 0 3"/></asset><worldbody><geom type="plane" size="1 1 1"/>
   <body name="a" pos="10 0 0"><freejoint/><geom size=".5" mass="2" rgba="1 0 0 1"/><geom type="box" size="1 2 3" mass="3"/>
     <body pos="0 0 1"><joint type="ball"/><geom type="mesh" mesh="tetra" mass="1"/></body></body>
-  <body mocap="true" pos="0 0 -1"/></worldbody><sensor/><keyframe><key name="home"/></keyframe></mujoco>)";
+  <body mocap="true" pos="0 0 -1"/></worldbody><sensor><clock/><user objtype="body" objname="a"/>
+  <framepos name="at" objtype="xbody" objname="a"/></sensor><keyframe><key name="home"/></keyframe></mujoco>)";
 
 void expectRefused(const std::vector<std::string>& args, const std::vector<std::string>& words) {
   const Invoked run = invoke(args);
@@ -33,8 +34,9 @@ TEST(InfoCommand, AModel) {
   const Invoked text = invoke({"info", file});
   EXPECT_EQ(text.status, 0) << text.err;
   EXPECT_EQ(text.err, "");
-  for (const char* part : {"robot", "2 dynamic, 1 kinematic, 1 static", "4: 1 sphere, 1 box, 1 half_space, 1 hull",
-                           "1: 1 ball", "6 kg", "0.01 s", "0, 0, -5", "home", "sensor: ignored"}) {
+  for (const char* part :
+       {"robot", "2 dynamic, 1 kinematic, 1 static", "4: 1 sphere, 1 box, 1 half_space, 1 hull", "1: 1 ball", "6 kg",
+        "0.01 s", "0, 0, -5", "home", "2: 1 clock, 1 framepos", "user: left out"}) {
     EXPECT_NE(text.out.find(part), std::string::npos) << part << "\n" << text.out;
   }
   const Json json = Json::parse(invoke({"info", file, "--json"}).out);
@@ -52,6 +54,9 @@ TEST(InfoCommand, AModel) {
     EXPECT_NEAR(json["upper"][i].get<double>(), upper[i], 1e-5);
   }
   EXPECT_EQ(json["keyframes"], Json::array({"home"}));
+  ASSERT_EQ(json["probes"].size(), 2u);
+  EXPECT_EQ(json["probes"][0]["name"], "sensor_1");
+  EXPECT_EQ(json["probes"][1], (Json{{"name", "at"}, {"kind", "framepos"}, {"dimension", 3}, {"unit", "m"}}));
   EXPECT_FALSE(json["notes"].empty());
 }
 

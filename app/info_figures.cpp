@@ -172,6 +172,24 @@ std::string movedBy(const Model& model, const Actuator& actuator) {
   return {};
 }
 
+// "3: 2 jointpos, 1 clock", kinds in the order in which they come first
+std::string probesText(const std::vector<ProbeInfo>& probes) {
+  std::vector<std::pair<std::string, size_t>> counts;
+  for (const ProbeInfo& probe : probes) {
+    const auto known = std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == probe.kind; });
+    if (known != counts.end()) {
+      ++known->second;
+    } else {
+      counts.emplace_back(probe.kind, 1);
+    }
+  }
+  std::string text = std::to_string(probes.size());
+  for (size_t i = 0; i < counts.size(); ++i) {
+    text += (i == 0 ? ": " : ", ") + std::to_string(counts[i].second) + " " + counts[i].first;
+  }
+  return text;
+}
+
 }  // namespace
 
 const char* shapeKindName(size_t kind) { return kShapeNames[kind]; }
@@ -203,6 +221,10 @@ ModelInfo infoOf(const Model& model) {
   for (const JointId joint : world.joints()) ++info.joints[static_cast<size_t>(world.type(joint))];
   for (const NamedJoint& joint : model.joints) info.coordinates.push_back(infoOf(world, joint));
   info.actuators = model.actuators;
+  for (const Probe& probe : model.probes) {
+    const ProbeKindFacts& facts = factsOf(probe.kind);
+    info.probes.push_back({probe.name, facts.name, probe.unit, facts.dimension});
+  }
   for (const Actuator& actuator : model.actuators) info.moved.push_back(movedBy(model, actuator));
   return info;
 }
@@ -231,6 +253,7 @@ ReportLines reportLines(const ModelInfo& info) {
   for (size_t i = 0; i < info.actuators.size(); ++i) {
     lines.emplace_back("actuator", actuatorText(info.actuators[i], info.moved[i]));
   }
+  lines.emplace_back("probes", probesText(info.probes));
   for (const std::string& note : info.notes) lines.emplace_back("note", note);
   return lines;
 }

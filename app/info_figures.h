@@ -31,6 +31,11 @@ struct CoordinateInfo {
   double maxVelocity = 0;       ///< infinite: no limit
 };
 
+struct ProbeInfo {
+  std::string name, kind, unit;  ///< kind: the sensor's element in MJCF
+  int dimension = 1;
+};
+
 struct ModelInfo {
   std::string name;
   size_t dynamic = 0, kinematic = 0, fixed = 0;
@@ -45,6 +50,7 @@ struct ModelInfo {
   std::vector<std::string> keyframes, notes;
   std::vector<CoordinateInfo> coordinates;
   std::vector<Actuator> actuators;
+  std::vector<ProbeInfo> probes;
   std::vector<std::string> moved;  ///< by actuator: the name of the coordinate; empty where it has none
 };
 

@@ -47,6 +47,14 @@ Json actuatorsJson(const ModelInfo& info) {
   return out;
 }
 
+Json probesJson(const ModelInfo& info) {
+  Json out = Json::array();
+  for (const ProbeInfo& p : info.probes) {
+    out.push_back({{"name", p.name}, {"kind", p.kind}, {"dimension", p.dimension}, {"unit", p.unit}});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string jsonText(const RunFigures& f) {
@@ -55,6 +63,7 @@ std::string jsonText(const RunFigures& f) {
                {"statics", f.statics},
                {"shapes", f.shapes},
                {"joints", f.joints},
+               {"probes", f.probes},
                {"contact_points", f.contactPoints},
                {"steps", f.steps},
                {"dt", f.dt},
@@ -127,6 +136,7 @@ std::string jsonText(const ModelInfo& info) {
                {"keyframes", info.keyframes},
                {"coordinates", coordinatesJson(info)},
                {"actuators", actuatorsJson(info)},
+               {"probes", probesJson(info)},
                {"notes", info.notes}});
 }
 

@@ -1,4 +1,4 @@
-// Page, CSV and recording of a run.
+// Page, CSVs and recording of a run.
 #include "app/outputs.h"
 
 #include <algorithm>
@@ -35,9 +35,14 @@ Outputs::Outputs(const RunArguments& a, const Model& model, const Plan& plan)
       ids_(model.bodies.size()) {
   for (size_t i = 0; i < ids_.size(); ++i) ids_[i] = model.bodies[i].id;
   poses_.resize(ids_.size());
+  if (!a.probes.empty() && model.probes.empty()) {
+    throw BadInput("--probes " + a.probes + ": " + a.scene + " has no sensors that this program reads");
+  }
   if (!a.poses.empty()) csvFile_ = std::make_unique<OutputFile>("--poses", a.poses);
   if (!a.html.empty()) pageFile_ = std::make_unique<OutputFile>("--html", a.html);
+  if (!a.probes.empty()) probesFile_ = std::make_unique<OutputFile>("--probes", a.probes);
   refuseSame(a);
+  if (probesFile_) probes_ = std::make_unique<ProbesCsv>(probesFile_->stream(), model);
   if (csvFile_) csv_ = std::make_unique<PosesCsv>(csvFile_->stream(), model);
   if (pageFile_) {
     const double frames = pageFps(model, plan) * static_cast<double>(plan.steps) * plan.dt;
@@ -65,6 +70,7 @@ void Outputs::look(const Model& model, int64_t step, const Plan& plan) {
     model.world.getPoses(ids_, poses_);
     csv_->write(time, poses_);
   }
+  if (probes_) probes_->write(time);
   if (onPage) page_.frames.push_back(pageRecorder_->frame(model, time));
   if (inRecord) record(recorder_->frame(model, time));
 }
@@ -86,31 +92,37 @@ void Outputs::commit(const ReportLines& report) {
     page_.report = report;
     writePage(pageFile_->stream(), page_);
   }
-  // Both or none.
-  for (const auto& file : {&csvFile_, &pageFile_})
+  // All or none.
+  const auto files = {&csvFile_, &pageFile_, &probesFile_};
+  for (const auto& file : files)
     if (*file) (*file)->finish();
   try {
     if (writer_) writer_->finish(report);
   } catch (const FileError& e) {
     throw BadInput(std::string("--record ") + e.what());
   }
-  for (const auto& file : {&csvFile_, &pageFile_})
+  for (const auto& file : files)
     if (*file) (*file)->commit();
 }
 
 void Outputs::refuseSame(const RunArguments& a) const {
   if (csvFile_ && pageFile_ && csvFile_->target() == pageFile_->target())
     throw BadInput("--html and --poses are the same file " + a.html);
+  for (const auto& file : {&csvFile_, &pageFile_})
+    if (*file && probesFile_ && (*file)->target() == probesFile_->target())
+      throw BadInput("--probes is the same file as another output: " + a.probes);
   std::error_code none;
-  for (const std::string& file : {a.poses, a.html, a.record})
+  const std::string all[] = {a.poses, a.html, a.record, a.probes};
+  for (const std::string& file : all)
     if (!file.empty() && fs::equivalent(file, a.scene, none)) throw BadInput(file + ": is the scene itself");
-  for (const std::string& file : {a.poses, a.html, a.record})
+  for (const std::string& file : all)
     if (!file.empty() && !a.control.empty() && fs::equivalent(file, a.control, none))
       throw BadInput(file + ": is the file of --control");
   if (a.record.empty()) return;
   const fs::path target = fs::weakly_canonical(a.record, none);
-  if ((csvFile_ && csvFile_->target() == target) || (pageFile_ && pageFile_->target() == target))
-    throw BadInput("--record is the same file as another output: " + a.record);
+  for (const auto& file : {&csvFile_, &pageFile_, &probesFile_})
+    if (*file && (*file)->target() == target)
+      throw BadInput("--record is the same file as another output: " + a.record);
 }
 
 }  // namespace avbd::cli

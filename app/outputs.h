@@ -10,14 +10,15 @@
 #include "app/load.h"
 #include "app/output_file.h"
 #include "app/poses_csv.h"
+#include "app/probes_csv.h"
 #include "app/recorder.h"
 #include "app/sampler.h"
 #include "io/record/writer.h"
 
 namespace avbd::cli {
 
-/// Opened before the first step, so that what cannot be written costs no run. Page and CSV appear when all is done; a
-/// recording grows under its name from the beginning.
+/// Opened before the first step, so that what cannot be written costs no run. Page and CSVs appear when all is done; a
+/// recording grows under its name from the beginning. The model must stay where it is.
 class Outputs {
  public:
   Outputs(const RunArguments& a, const Model& model, const Plan& plan);
@@ -32,8 +33,9 @@ class Outputs {
   Sampler csvSampler_, pageSampler_, recordSampler_;
   std::vector<BodyId> ids_;
   std::vector<Pose> poses_;
-  std::unique_ptr<OutputFile> csvFile_, pageFile_;
+  std::unique_ptr<OutputFile> csvFile_, pageFile_, probesFile_;
   std::unique_ptr<PosesCsv> csv_;
+  std::unique_ptr<ProbesCsv> probes_;
   std::unique_ptr<Recorder> pageRecorder_, recorder_;
   Recording page_;
   std::unique_ptr<RecordWriter> writer_;

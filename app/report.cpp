@@ -60,6 +60,7 @@ ReportLines reportLines(const RunFigures& f) {
       {"bodies", std::to_string(f.bodies) + ", and " + std::to_string(f.statics) + " static"},
       {"shapes", std::to_string(f.shapes)},
       {"joints", std::to_string(f.joints)},
+      {"probes", std::to_string(f.probes)},
       {"contact points", std::to_string(f.contactPoints)},
       {"steps", std::to_string(f.steps) + " of " + digits(f.dt, 6) +
                     " s: " + digits(static_cast<double>(f.steps) * f.dt, 6) + " s"},

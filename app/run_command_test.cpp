@@ -61,6 +61,7 @@ TEST(Run, PrintsExactlyTheKeysOfTheReport) {
                                           "statics",
                                           "shapes",
                                           "joints",
+                                          "probes",
                                           "contact_points",
                                           "steps",
                                           "dt",
@@ -83,6 +84,7 @@ TEST(Run, PrintsExactlyTheKeysOfTheReport) {
   EXPECT_EQ(report["statics"], 1);
   EXPECT_EQ(report["shapes"], 3);
   EXPECT_EQ(report["joints"], 0);
+  EXPECT_EQ(report["probes"], 0);
   EXPECT_EQ(report["contact_points"], 4);
   EXPECT_EQ(report["steps"], 100);
   EXPECT_EQ(report["dt"], 0.005);
@@ -109,8 +111,8 @@ TEST(Run, PrintsAShortReport) {
   EXPECT_LT(lineCount(run.out), 30u);
   const std::string text = std::string("\n").append(run.out);
   for (const char* label :
-       {"scene", "bodies", "joints", "steps", "time per step", "realtime factor", "stages", "penetration", "joint gap",
-        "beyond limits", "kinetic energy", "momentum", "finite", "hash"})
+       {"scene", "bodies", "joints", "probes", "steps", "time per step", "realtime factor", "stages", "penetration",
+        "joint gap", "beyond limits", "kinetic energy", "momentum", "finite", "hash"})
     EXPECT_NE(text.find(std::string("\n").append(label).append("  ")), std::string::npos) << label;
   EXPECT_EQ(invoke({"run", "chain", "--time", "0.1", "--no-report"}).out, "");
 }

@@ -7,6 +7,7 @@
 #include "fuzz/check.h"
 #include "io/file_error.h"
 #include "io/model.h"
+#include "io/probes.h"
 
 namespace avbd::fuzz {
 
@@ -18,7 +19,12 @@ void readAndStep(Read&& read) {
     Model model = read();
     require(std::isfinite(model.dt) && model.dt > 0, "a time step that is not positive");
     if (model.bodies.size() > kMostBodies || model.world.shapeCount() > 4 * kMostBodies) return;
-    for (int i = 0; i < 3; ++i) model.world.step(1.0f / 60);
+    Probes probes(model);
+    const bool fewProbes = model.probes.size() <= kMostBodies;
+    for (int i = 0; i < 3; ++i) {
+      model.world.step(1.0f / 60);
+      if (fewProbes) probes.read();
+    }
     for (const NamedBody& body : model.bodies)
       require(std::isfinite(length(model.world.pose(body.id).position)), "a body that is not finite");
   } catch (const FileError&) {

@@ -5,7 +5,8 @@
 // primitives fitted to meshes, height fields, masses by density, mass, inertial and the compiler's bounds, contype and
 // conaffinity, excludes, friction by maximum and priority, all joints with limits, springs, dampers, friction and
 // armature, equalities, fixed tendons and spatial ones between two sites, motors and servos, keyframes, gravity,
-// timestep. A body without a joint is part of its parent's rigid body (static under worldbody), as in MuJoCo. Several
+// timestep, sensors (as probes).
+// A body without a joint is part of its parent's rigid body (static under worldbody), as in MuJoCo. Several
 // joints of one body are one joint of ours where that is the same, else light bodies stand between (mjcf_stages.h).
 // condim 1 is friction 0, 4 adds torsional and 6 rolling friction.
 // A mesh weighs by its own volume, as in MuJoCo from 2.3 on (2.2 took that of a box of the same inertia); its pyramids
@@ -14,9 +15,13 @@
 // assetdir); `..` may leave the folder, as in MuJoCo; regular files only, at most 256 MiB together. A mesh's file is
 // read when a geom first uses it.
 // Left out with a note: sdf geoms, height fields from PNG, tendons around geoms and over pulleys, muscles and other
-// actuators with states, transmissions to sites and balls, sensors, skins, composites and other elements that make
+// actuators with states, transmissions to sites and balls, some sensors, skins, composites and other elements that make
 // bodies, softness of contacts, limits and equalities. A body that moves and has no mass but that of parts left out
 // stands still; contacts, equalities and actuators that name such parts are left out too.
+// Sensors left out with a note: forces of limits, ranges of balls, of tendons around geoms or over pulleys, of left-out
+// actuators, of cameras, distances of geoms, user, plugin, energies, contact, tactile, insidesite; axes of inertia
+// (objtype body) that the file does not tell: of several geoms, a mesh or a fullinertia. noise is not used. A
+// rangefinder sees what can collide.
 // Anything unknown is noted; anything wrong is refused with its place in the file.
 #pragma once
 
@@ -37,6 +42,7 @@ struct MjcfOptions {
 };
 
 /// Throws FileError: nothing is returned half-made. World axes are the file's: z is up where its gravity says so.
+/// Model::probes has what the sensors measure (probes.h).
 /// Model::joints has the coordinates of hinges and slides; Model::actuators start with the keyframe's ctrl, or where it
 /// gives positions alone, so that servos hold these.
 Model readMjcf(const std::filesystem::path& file, const MjcfOptions& options = {});

@@ -217,6 +217,7 @@ Model Builder::build() {
   addActuators();
   for (const Equality& equality : in_.equalities) addEquality(equality);
   for (const Exclude& exclude : in_.excludes) addExclude(exclude);
+  addProbes();
   model_.notes = in_.notes;
   for (std::string& line : notes_.lines()) model_.notes.push_back(std::move(line));
   return std::move(model_);

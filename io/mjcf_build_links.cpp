@@ -43,6 +43,9 @@ bool isNothing(const CouplingTerm& t) { return t.factor == 0 && t.square == 0 &&
 
 void Builder::keep(const Equality& equality, JointId joint) {
   if (!equality.active) model_.world.setEnabled(joint, false);
+  if (equality.kind == EqualityKind::Connect || equality.kind == EqualityKind::Weld) {
+    holds_.push_back({joint, static_cast<size_t>(equality.bodyA), static_cast<size_t>(equality.bodyB)});
+  }
 }
 
 void Builder::addEquality(const Equality& equality) {

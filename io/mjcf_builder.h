@@ -97,6 +97,16 @@ class Builder {
   void startControls();
   double held(const Actuator& actuator, double position) const;
 
+  // mjcf_build_probes.cpp
+  void addProbes();
+  void addProbeTree();
+  bool aimProbe(const Sensor& sensor, Probe& probe);
+  void measureLength(const Sensor& sensor, Probe& probe) const;
+  ProbeFrame frameOf(size_t body, const Posed& pose) const;
+  ProbeFrame beforeBall(JointRef ball) const;
+  std::vector<ProbeFrame> pathOf(const Tendon& tendon) const;
+  std::vector<size_t> actuatorsOf(const Sensor& sensor) const;
+
   Vec3 narrow(Vec3d v, const std::string& where) const;
   size_t rootOf(size_t body) const { return static_cast<size_t>(clusters_.rootOf[body]); }
   Link linkOf(size_t root) const { return clusters_.linkOf[root]; }
@@ -128,6 +138,7 @@ class Builder {
   std::vector<JointId> couplings_;                    // of fixed tendons; null: none was needed
   std::vector<double> actuatorStarts_;                // of model_.actuators: the coordinate in the file's sense
   std::vector<size_t> actuatorControls_;              // of model_.actuators: its place in a keyframe's ctrl
+  std::vector<ProbeHold> holds_;                      // of equalities that join bodies
   std::set<std::string> names_;                       // used so far
   Notes notes_;
   GeomShapes shapes_{in_, notes_};

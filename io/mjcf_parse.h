@@ -12,6 +12,7 @@
 #include "io/color.h"
 #include "io/file_error.h"
 #include "io/mjcf_math.h"
+#include "io/probe.h"
 
 namespace avbd::mjcf {
 
@@ -76,7 +77,8 @@ struct Joint {
 struct Site {
   std::string where;
   int body = 0;
-  Posed pose;  ///< in the body's frame
+  Posed pose;      ///< in the body's frame
+  ProbeZone zone;  ///< its shape
 };
 
 struct Body {
@@ -85,10 +87,11 @@ struct Body {
   Posed pose;      ///< in the parent's frame
   std::vector<Joint> joints;
   std::vector<Geom> geoms;
-  Mass mass;                  ///< in the body's frame
-  bool massKnown = true;      ///< false where a geom's mass is not
-  bool partsLeftOut = false;  ///< composites and the like, which may have had mass
-  bool moves = false;         ///< it or a body above it has a joint
+  Mass mass;                          ///< in the body's frame
+  std::optional<Quatd> inertialAxes;  ///< of its inertia, where the file tells them: given, or of its only geom
+  bool massKnown = true;              ///< false where a geom's mass is not
+  bool partsLeftOut = false;          ///< composites and the like, which may have had mass
+  bool moves = false;                 ///< it or a body above it has a joint
   bool mocap = false;
   double gravcomp = 0;
   size_t qposAt = 0, qvelAt = 0;  ///< where its joints' coordinates begin in a keyframe
@@ -168,6 +171,24 @@ struct Actuation {
   double maxForce = std::numeric_limits<double>::infinity();
 };
 
+/// A frame that a sensor looks at.
+struct SensorFrame {
+  int body = 0;
+  Posed pose;  ///< in the body's frame
+};
+
+/// A sensor that maps to a probe.
+struct Sensor {
+  std::string name, where;
+  ProbeKind kind = ProbeKind::Clock;
+  double cutoff = 0;
+  JointRef joint;
+  int tendon = -1, actuation = -1;
+  SensorFrame at;  ///< its body is also that whose subtree is measured
+  std::optional<SensorFrame> reference;
+  ProbeZone zone;
+};
+
 struct Key {
   std::string name, where;
   std::vector<double> qpos, qvel, ctrl;  ///< of the whole model, or empty
@@ -188,6 +209,8 @@ struct Description {
   std::vector<Site> sites;
   std::vector<Tendon> tendons;
   std::vector<Actuation> actuations;
+  std::vector<Sensor> sensors;
+  Vec3d magneticFlux{0, -0.5, 0};
   std::vector<Key> keys;
   std::vector<MeshAsset> meshes;  ///< of the file; those that no geom uses are empty
   std::vector<HeightAsset> heights;

@@ -42,6 +42,7 @@ Description Parser::run() {
   forSection("contact", [&](Elem e) { readContact(e); });
   forSection("tendon", [&](Elem e) { readTendons(e); });
   forSection("actuator", [&](Elem e) { readActuators(e); });
+  forSection("sensor", [&](Elem e) { readSensors(e); });
   forSection("equality", [&](Elem e) { readEqualities(e); });
   forSection("keyframe", [&](Elem e) { readKeys(e); });
   out_.notes = notes_.lines();
@@ -119,6 +120,7 @@ void Parser::readOption(Elem elem) {
   if (!(out_.dt > 0 && out_.dt <= 1)) a.fail("timestep", "must be > 0 and <= 1 (seconds)");
   out_.gravity = vector(a, "gravity", out_.gravity);
   if (length(out_.gravity) > 1e6) a.fail("gravity", "must be at most 1e6 m/s^2");
+  out_.magneticFlux = vector(a, "magnetic", out_.magneticFlux);
   const int collision = a.keyword("collision", {"all", "predefined", "dynamic"}, 0);
   if (collision == 1) {
     out_.contactsOff = true;
@@ -148,6 +150,7 @@ void Parser::readFlag(Elem elem) {
   off_.dampers = off_.dampers || !passive || !a.enabled("damper");
   off_.controlRanges = off_.controlRanges || !a.enabled("clampctrl");
   off_.actuators = off_.actuators || !a.enabled("actuation");
+  off_.sensors = off_.sensors || !a.enabled("sensor");
   if (!a.enabled("gravity")) out_.gravity = {};
   if (!a.enabled("filterparent")) out_.filterParent = false;
 }

@@ -27,7 +27,7 @@ struct Compiler {
 /// What the file's flags switch off.
 struct SwitchedOff {
   bool equalities = false, limits = false, frictions = false, springs = false, dampers = false;
-  bool controlRanges = false, actuators = false;
+  bool controlRanges = false, actuators = false, sensors = false;
 };
 
 /// Where a mesh of the file comes from; read when a geom first uses it.
@@ -41,6 +41,7 @@ struct Inertial {
   Elem elem;
   bool given = false;
   Mass mass;  // in the body's frame
+  std::optional<Quatd> axes{};
 };
 
 /// One element whose children are being read, on the walk through the bodies.
@@ -90,6 +91,7 @@ class Parser {
   void openBody(Elem elem, std::vector<OpenElem>& open);
   void openFrame(Elem elem, std::vector<OpenElem>& open);
   void readSite(Elem elem, const OpenElem& in);
+  ProbeZone siteZone(const Attributes& a) const;
   void readInertial(Elem elem, const OpenElem& in);
   void finishTree();
   Quatd orientation(const Attributes& a) const;
@@ -126,6 +128,17 @@ class Parser {
   void readServo(const Attributes& a, Actuation& actuation);
   void readActuatorRanges(const Attributes& a, Actuation& actuation);
   void leaveOut(Actuation& actuation, const std::string& why);
+
+  // mjcf_parser_sensors.cpp
+  void readSensors(Elem elem);
+  void readSensor(Elem elem);
+  bool aimSensor(const Attributes& a, Sensor& sensor);
+  bool aimAtJoint(const Attributes& a, Sensor& sensor);
+  bool aimAtRange(const Attributes& a, const Sensor& sensor);
+  bool aimAtActuator(const Attributes& a, Sensor& sensor);
+  bool aimAtFrame(const Attributes& a, Sensor& sensor);
+  std::optional<SensorFrame> sensorFrame(const Attributes& a, const std::string& prefix, bool axes);
+  void leaveOut(const Attributes& a, const std::string& why);
 
   // mjcf_parser_geoms.cpp
   void readGeom(Elem elem, const OpenElem& in);
@@ -171,12 +184,13 @@ class Parser {
   std::map<std::string, JointRef, std::less<>> jointByName_;
   std::map<std::string, int, std::less<>> siteByName_, tendonByName_;  // into out_.sites and tendons
   std::set<std::string, std::less<>> jointNames_, siteNames_, tendonNames_, actuatorNames_;
-  std::set<std::string, std::less<>> equalityNames_, keyNames_, pairNames_, excludeNames_;
+  std::map<std::string, int, std::less<>> actuatorByName_;  // into out_.actuations
+  std::set<std::string, std::less<>> sensorNames_, equalityNames_, keyNames_, pairNames_, excludeNames_;
   std::map<std::string, std::set<std::string, std::less<>>, std::less<>> assets_;  // names by element
   std::vector<MeshSource> meshSources_;                                            // of out_.meshes
   std::map<std::string, size_t, std::less<>> meshByName_, heightsByName_;          // into out_.meshes and heights
   std::map<std::string, std::optional<Color>, std::less<>> materials_;
-  size_t assetBytes_ = 0;
+  size_t assetBytes_ = 0, sensorCount_ = 0;
   bool coordinatesMissing_ = false;  // something left out would have brought coordinates of its own
   SwitchedOff off_;
 };

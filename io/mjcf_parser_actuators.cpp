@@ -42,6 +42,7 @@ void Parser::readActuator(Elem elem) {
   readActuatorRanges(a, actuation);
   if (!actuation.leftOut && actuation.gear == 0) leaveOut(actuation, "its gear is 0");
   if (off_.actuators) leaveOut(actuation, "actuation is disabled");
+  if (!actuation.name.empty()) actuatorByName_.emplace(actuation.name, static_cast<int>(out_.actuations.size()));
   out_.actuations.push_back(std::move(actuation));
 }
 

@@ -155,10 +155,32 @@ void Parser::readSite(Elem elem, const OpenElem& in) {
     at = {(from + to) * 0.5, turnFromZ(from - to)};
   }
   site.pose = in.frame * at;
+  site.zone = siteZone(a);
   if (const std::string name = nameOnce(a, siteNames_); !name.empty()) {
     siteByName_.emplace(name, static_cast<int>(out_.sites.size()));
   }
   out_.sites.push_back(std::move(site));
+}
+
+// MuJoCo's rule: sizes that are not given keep their default.
+ProbeZone Parser::siteZone(const Attributes& a) const {
+  constexpr double kUsual = 0.005;
+  constexpr size_t kNeeded[] = {1, 2, 3, 2, 3};
+  ProbeZone zone;
+  zone.kind = static_cast<ProbeZone::Kind>(
+      a.keyword("type", {"sphere", "capsule", "ellipsoid", "cylinder", "box"}, static_cast<int>(zone.kind)));
+  std::vector<double> size = a.numbers("size", 1, 3);
+  size.resize(3, kUsual);
+  if (const auto v = a.numbers("fromto", 6, 6); !v.empty()) {
+    const double half = length(Vec3d{v[3] - v[0], v[4] - v[1], v[5] - v[2]}) / 2;
+    const bool round = zone.kind == ProbeZone::Kind::Capsule || zone.kind == ProbeZone::Kind::Cylinder;
+    size = {size[0], round ? half : size[0], half};
+  }
+  for (size_t i = 0; i < kNeeded[static_cast<size_t>(zone.kind)]; ++i) {
+    if (!(size[i] > 0)) a.fail("size", "each must be finite and > 0");
+  }
+  zone.size = {size[0], size[1], size[2]};
+  return zone;
 }
 
 void Parser::readInertial(Elem elem, const OpenElem& in) {
@@ -188,6 +210,7 @@ void Parser::readInertial(Elem elem, const OpenElem& in) {
     }
   }
   inertial = {elem, true, {mass, at.position, rotated(inertia, at.rotation)}};
+  if (full.empty()) inertial.axes = at.rotation;
 }
 
 void Parser::finishTree() {

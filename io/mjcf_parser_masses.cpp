@@ -7,6 +7,22 @@
 
 namespace avbd::mjcf {
 
+namespace {
+
+// Those of the only geom that counts; what several together, or a mesh, have is a choice among equals.
+std::optional<Quatd> axesOf(const Body& body, double groupFirst, double groupLast) {
+  const Geom* only = nullptr;
+  for (const Geom& geom : body.geoms) {
+    if (geom.group < groupFirst || geom.group > groupLast) continue;
+    if (only) return {};
+    only = &geom;
+  }
+  if (!only) return Quatd{};
+  return only->kind == GeomKind::Mesh ? std::nullopt : std::optional(only->pose.rotation);
+}
+
+}  // namespace
+
 void Parser::finishMasses() {
   for (size_t i = 1; i < out_.bodies.size(); ++i) {
     finishMass(i);
@@ -32,8 +48,10 @@ void Parser::finishMass(size_t index) {
   if (fromGeoms) {
     body.mass = sum(parts);
     body.massKnown = known;
+    body.inertialAxes = axesOf(body, compiler_.groupFirst, compiler_.groupLast);
   } else if (inertial.given) {
     body.mass = inertial.mass;
+    body.inertialAxes = inertial.axes;
   }
 }
 

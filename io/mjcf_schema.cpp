@@ -1,4 +1,4 @@
-// The tables of MJCF's elements and attributes.
+// The table of MJCF's attributes.
 #include "io/mjcf_schema.h"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ constexpr AttributeRule kRules[] = {
     {"option", "gravity", 3, 3, R},
     {"option", "collision", 0, 0, R},
     {"option", "wind", 3, 3, Z},
-    {"option", "magnetic", 3, 3, Z},
+    {"option", "magnetic", 3, 3, R},
     {"option", "density", 1, 1, Z},
     {"option", "viscosity", 1, 1, Z},
     {"option", "apirate", 1, 1, S},
@@ -90,7 +90,7 @@ constexpr AttributeRule kRules[] = {
     {"flag", "warmstart", 0, 0, S},
     {"flag", "actuation", 0, 0, R},
     {"flag", "refsafe", 0, 0, S},
-    {"flag", "sensor", 0, 0, S},
+    {"flag", "sensor", 0, 0, R},
     {"flag", "midphase", 0, 0, S},
     {"flag", "nativeccd", 0, 0, S},
     {"flag", "eulerdamp", 0, 0, S},
@@ -188,8 +188,8 @@ constexpr AttributeRule kRules[] = {
     {"site", "name", 0, 0, R},
     {"site", "class", 0, 0, R},
     {"site", "fromto", 6, 6, R},
-    {"site", "type", 0, 0, S},
-    {"site", "size", 1, 3, S},
+    {"site", "type", 0, 0, R},
+    {"site", "size", 1, 3, R},
     {"site", "group", 1, 1, S},
     {"site", "material", 0, 0, S},
     {"site", "rgba", 4, 4, S},
@@ -339,6 +339,42 @@ constexpr AttributeRule kRules[] = {
     {"actuator", "plugin", 0, 0, S},
     {"actuator", "instance", 0, 0, S},
 
+    {"sensor", "name", 0, 0, R},
+    {"sensor", "cutoff", 1, 1, R},
+    {"sensor", "noise", 1, 1, Z},
+    {"sensor", "joint", 0, 0, R},
+    {"sensor", "tendon", 0, 0, R},
+    {"sensor", "actuator", 0, 0, R},
+    {"sensor", "site", 0, 0, R},
+    {"sensor", "body", 0, 0, R},
+    {"sensor", "objtype", 0, 0, R},
+    {"sensor", "objname", 0, 0, R},
+    {"sensor", "reftype", 0, 0, R},
+    {"sensor", "refname", 0, 0, R},
+    {"sensor", "user", 0, kMany, S},
+    {"sensor", "nsample", 1, 1, N},
+    {"sensor", "interp", 0, 0, N},
+    {"sensor", "delay", 1, 1, Z},
+    {"sensor", "interval", 1, 2, N},
+    // of kinds that are left out
+    {"sensor", "camera", 0, 0, S},
+    {"sensor", "geom", 0, 0, S},
+    {"sensor", "mesh", 0, 0, S},
+    {"sensor", "geom1", 0, 0, S},
+    {"sensor", "geom2", 0, 0, S},
+    {"sensor", "body1", 0, 0, S},
+    {"sensor", "body2", 0, 0, S},
+    {"sensor", "subtree1", 0, 0, S},
+    {"sensor", "subtree2", 0, 0, S},
+    {"sensor", "data", 0, 0, N},
+    {"sensor", "reduce", 0, 0, S},
+    {"sensor", "num", 1, 1, S},
+    {"sensor", "dim", 1, 1, S},
+    {"sensor", "needstage", 0, 0, S},
+    {"sensor", "datatype", 0, 0, S},
+    {"sensor", "plugin", 0, 0, S},
+    {"sensor", "instance", 0, 0, S},
+
     {"key", "name", 0, 0, R},
     {"key", "time", 1, 1, S},
     {"key", "qpos", 0, kMany, R},
@@ -347,103 +383,6 @@ constexpr AttributeRule kRules[] = {
     {"key", "ctrl", 0, kMany, R},
     {"key", "mpos", 0, kMany, N},
     {"key", "mquat", 0, kMany, N},
-};
-
-struct SectionRule {
-  std::string_view parent, element;
-  Section section;
-};
-
-constexpr SectionRule kSections[] = {
-    {"mujoco", "compiler", Section::Read},
-    {"mujoco", "option", Section::Read},
-    {"mujoco", "default", Section::Read},
-    {"mujoco", "worldbody", Section::Read},
-    {"mujoco", "contact", Section::Read},
-    {"mujoco", "equality", Section::Read},
-    {"mujoco", "keyframe", Section::Read},
-    {"mujoco", "asset", Section::Read},
-    {"mujoco", "size", Section::Silent},
-    {"mujoco", "visual", Section::Silent},
-    {"mujoco", "statistic", Section::Silent},
-    {"mujoco", "custom", Section::Silent},
-    {"mujoco", "sensor", Section::Noted},
-    {"mujoco", "actuator", Section::Read},
-    {"mujoco", "tendon", Section::Read},
-    {"mujoco", "deformable", Section::Noted},
-    {"mujoco", "extension", Section::Noted},
-
-    {"asset", "mesh", Section::Read},
-    {"asset", "hfield", Section::Read},
-    {"asset", "texture", Section::Noted},
-    {"asset", "material", Section::Read},
-    {"asset", "skin", Section::Noted},
-    {"asset", "model", Section::Noted},
-
-    {"compiler", "lengthrange", Section::Silent},
-    {"option", "flag", Section::Read},
-
-    {"body", "inertial", Section::Read},
-    {"body", "joint", Section::Read},
-    {"body", "freejoint", Section::Read},
-    {"body", "geom", Section::Read},
-    {"body", "body", Section::Read},
-    {"body", "frame", Section::Read},
-    {"body", "site", Section::Read},
-    {"body", "camera", Section::Silent},
-    {"body", "light", Section::Silent},
-    {"body", "composite", Section::Noted},
-    {"body", "flexcomp", Section::Noted},
-    {"body", "attach", Section::Noted},
-    {"body", "replicate", Section::Noted},
-    {"body", "plugin", Section::Noted},
-
-    {"default", "geom", Section::Read},
-    {"default", "joint", Section::Read},
-    {"default", "pair", Section::Read},
-    {"default", "equality", Section::Read},
-    {"default", "default", Section::Read},
-    {"default", "mesh", Section::Read},
-    {"default", "material", Section::Read},
-    {"default", "site", Section::Read},
-    {"default", "camera", Section::Silent},
-    {"default", "light", Section::Silent},
-    {"default", "tendon", Section::Read},
-    {"default", "general", Section::Read},
-    {"default", "motor", Section::Read},
-    {"default", "position", Section::Read},
-    {"default", "velocity", Section::Read},
-    {"default", "intvelocity", Section::Read},
-    {"default", "damper", Section::Read},
-    {"default", "cylinder", Section::Read},
-    {"default", "muscle", Section::Read},
-    {"default", "adhesion", Section::Read},
-
-    {"contact", "exclude", Section::Read},
-    {"contact", "pair", Section::Read},
-    {"equality", "connect", Section::Read},
-    {"equality", "weld", Section::Read},
-    {"equality", "joint", Section::Read},
-    {"equality", "tendon", Section::Read},
-    {"equality", "distance", Section::Read},
-    {"equality", "flex", Section::Noted},
-    {"keyframe", "key", Section::Read},
-    {"tendon", "fixed", Section::Read},
-    {"tendon", "spatial", Section::Read},
-    {"fixed", "joint", Section::Read},
-    {"spatial", "site", Section::Read},
-    {"spatial", "geom", Section::Read},
-    {"spatial", "pulley", Section::Read},
-    {"actuator", "general", Section::Read},
-    {"actuator", "motor", Section::Read},
-    {"actuator", "position", Section::Read},
-    {"actuator", "velocity", Section::Read},
-    {"actuator", "intvelocity", Section::Read},
-    {"actuator", "damper", Section::Read},
-    {"actuator", "cylinder", Section::Read},
-    {"actuator", "muscle", Section::Read},
-    {"actuator", "adhesion", Section::Read},
-    {"actuator", "plugin", Section::Read},
 };
 
 // A pose is written at these elements only.
@@ -472,14 +411,6 @@ const AttributeRule* findRule(std::string_view element, std::string_view attribu
   };
   const auto it = std::find_if(std::begin(kRules), std::end(kRules), matches);
   return it == std::end(kRules) ? nullptr : &*it;
-}
-
-Section sectionOf(std::string_view parent, std::string_view element) {
-  if (parent == "worldbody" || parent == "frame") parent = "body";
-  for (const SectionRule& rule : kSections) {
-    if (rule.parent == parent && rule.element == element) return rule.section;
-  }
-  return Section::Unknown;
 }
 
 }  // namespace avbd::mjcf

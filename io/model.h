@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/color.h"
+#include "io/probe.h"
 
 namespace avbd {
 
@@ -53,6 +54,8 @@ struct Model {
   std::vector<NamedBody> bodies;       ///< all bodies, static ones too, in the order of the file
   std::vector<NamedJoint> joints{};    ///< coordinates that the file names, in its order
   std::vector<Actuator> actuators{};   ///< in the order of the file
+  std::vector<Probe> probes{};         ///< what the file's sensors measure, in its order (probes.h reads them)
+  ProbeTree probeTree{};               ///< what they know of the file's bodies; empty without probes
   std::vector<std::string> keyframes;  ///< names of the file's keyframes; "key_1" where it gives none
   /// What happens by itself before each step, by the number of steps made so far; may be empty.
   std::function<void(Model&, int64_t)> before{};
