@@ -23,6 +23,7 @@
 #include <avbd/joint.h>
 #include <avbd/types.h>
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -52,6 +53,14 @@ struct ArticulationDof {
   /// Of a hinge, slider or D6 joint its coordinate. Of a ball Twist, SwingY, SwingZ stand for x, y, z of frame A; of a
   /// floating base all six for x, y, z of the world.
   JointAxis axis = JointAxis::Twist;
+};
+
+/// Which links of an articulation collide with each other. Links that a joint joins do so only where the joint's
+/// collideConnected says so too.
+struct SelfCollision {
+  bool enabled = true;  ///< false: no link touches another
+  /// Pairs of links that never touch; each of two different links, once or more, in any order.
+  std::vector<std::array<BodyId, 2>> excluded{};
 };
 
 /// Where an articulation is and how it moves.
@@ -155,6 +164,13 @@ class Articulation {
   /// joint whose slerp drive has stiffness or damping gets its rotation and velocity. Balls and fixed joints have no
   /// drives: their numbers are not used, nor are the velocities of a floating base.
   void setDriveTargets(World& world, std::span<const double> positions, std::span<const double> velocities = {}) const;
+
+  /// Takes the place of what was set so before, and of World::excludeCollision between links; their collisions with
+  /// other bodies, also those of the base, are as they were. The world keeps it: copies of this view need not set it
+  /// again. Throws Error for pairs of bodies that are dead, no links, or the same.
+  void setSelfCollision(World& world, const SelfCollision& rule) const;
+  /// Pairs of links that never touch, whatever excludes them: as World::excludedPairs. Filters are not looked at.
+  std::vector<std::array<BodyId, 2>> excludedPairs(const World& world) const;
 
   ArticulationDynamics dynamics(const World& world) const;  ///< in the world's state
   /// In another state; the base's own motion and gravity are the world's.

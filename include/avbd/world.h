@@ -76,9 +76,12 @@ class World {
   bool isAlive(BodyId id) const;
   bool isAlive(ShapeId id) const;
   bool isAlive(JointId id) const;
-  /// Shapes of these two bodies never touch from now on.
+  /// Shapes of these two bodies never touch from now on, until allowCollision or one of the bodies is destroyed. Once
+  /// more changes nothing.
   void excludeCollision(BodyId a, BodyId b);
-  /// Bodies that never touch each other: excluded by the call above or by a joint between them. Each pair once, the
+  /// Ends what excludeCollision began, if it did. What a joint between the two excludes stays excluded.
+  void allowCollision(BodyId a, BodyId b);
+  /// Bodies that never touch each other: excluded by excludeCollision or by a joint between them. Each pair once, the
   /// lower slot first, in ascending order.
   std::vector<std::array<BodyId, 2>> excludedPairs() const;
 

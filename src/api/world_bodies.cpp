@@ -25,6 +25,12 @@ void checkReached(const Path& impulse, Vec3 given, Vec3 reached, double limit) {
   impulse.refuse(toText(given), "must not take the body's velocity beyond " + toText(limit));
 }
 
+std::array<uint32_t, 2> twoSlots(const WorldData& data, BodyId a, BodyId b, const Path& call) {
+  const std::array<uint32_t, 2> slots{slotOf(data, a, call / "a"), slotOf(data, b, call / "b")};
+  if (slots[0] == slots[1]) (call / "b").refuse(toText(b), "must differ from a");
+  return slots;
+}
+
 void checkPoint(const Path& path, Vec3d point, float unit) { check(path, point, symmetric(kMaxPosition * unit)); }
 
 }  // namespace
@@ -37,10 +43,13 @@ BodyId World::create(const BodyDef& def) {
 void World::destroy(BodyId id) { removeBody(impl_->data, slotOf(impl_->data, id, Path("World::destroy") / "id")); }
 
 void World::excludeCollision(BodyId a, BodyId b) {
-  const Path path("World::excludeCollision");
-  const uint32_t slotA = slotOf(impl_->data, a, path / "a"), slotB = slotOf(impl_->data, b, path / "b");
-  if (slotA == slotB) (path / "b").refuse(toText(b), "must differ from a");
-  exclude(impl_->data, slotA, slotB);
+  const auto [slotA, slotB] = twoSlots(impl_->data, a, b, Path("World::excludeCollision"));
+  excludeByHand(impl_->data, slotA, slotB);
+}
+
+void World::allowCollision(BodyId a, BodyId b) {
+  const auto [slotA, slotB] = twoSlots(impl_->data, a, b, Path("World::allowCollision"));
+  allowByHand(impl_->data, slotA, slotB);
 }
 
 std::vector<std::array<BodyId, 2>> World::excludedPairs() const {

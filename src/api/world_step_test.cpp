@@ -63,6 +63,28 @@ TEST_F(Resting, ExclusionLetsItFall) {
   expectFalls();
 }
 
+TEST_F(Resting, AllowingEndsAnExclusionHoweverOftenItWasMade) {
+  world.excludeCollision(box, ground);
+  world.excludeCollision(ground, box);
+  world.allowCollision(box, ground);
+  run(world, 60);
+  EXPECT_NEAR(height(), 0.5, 0.01);
+  world.allowCollision(box, ground);
+  EXPECT_TRUE(world.excludedPairs().empty());
+}
+
+TEST_F(Resting, AllowingLeavesWhatAJointExcludes) {
+  const JointId rope = world.create(DistanceJoint{.bodyA = ground, .bodyB = box, .max = 100});
+  const std::vector<std::array<BodyId, 2>> pair{{ground, box}};
+  world.allowCollision(box, ground);
+  EXPECT_EQ(world.excludedPairs(), pair);
+  world.excludeCollision(box, ground);
+  world.destroy(rope);
+  EXPECT_EQ(world.excludedPairs(), pair);
+  world.allowCollision(box, ground);
+  EXPECT_TRUE(world.excludedPairs().empty());
+}
+
 TEST_F(Resting, ExclusionsDieWithTheirBodies) {
   world.excludeCollision(box, ground);
   const uint32_t slot = box.index;

@@ -109,6 +109,8 @@ TEST_F(Refusal, BodyState) {
          ">= 1e-24");
   refuse([&] { world.setMassProperties(lift, {}); }, "World::setMassProperties", "id", "4 (generation 1)", "dynamic");
   refuse([&] { world.excludeCollision(box, box); }, "World::excludeCollision", "b", "1 (generation 1)", "must differ");
+  refuse([&] { world.allowCollision(box, {}); }, "World::allowCollision", "b", "null", "must name a living body");
+  refuse([&] { world.allowCollision(box, box); }, "World::allowCollision", "b", "1 (generation 1)", "must differ");
   refuse([&] { world.setMaterial(shape, {.friction = -1}); }, "World::setMaterial", "material.friction", "-1", ">= 0");
 }
 

@@ -171,6 +171,32 @@ void updateAnchorsOf(WorldData& data, uint32_t body) {
   }
 }
 
+namespace {
+
+size_t exclusionsByJoints(const WorldData& data, uint32_t bodyA, uint32_t bodyB) {
+  size_t count = 0;
+  for (uint32_t slot = data.bodies[bodyA].firstJoint; slot != kNone;) {
+    const JointData& joint = data.joints[slot];
+    count += excludes(joint) && (joint.body[0] == bodyB || joint.body[1] == bodyB);
+    slot = joint.next[sideOf(joint, bodyA)];
+  }
+  return count;
+}
+
+bool isExcludedByHand(const WorldData& data, uint32_t bodyA, uint32_t bodyB) {
+  return exclusionsOf(data, bodyA, bodyB) > exclusionsByJoints(data, bodyA, bodyB);
+}
+
+}  // namespace
+
+void excludeByHand(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
+  if (!isExcludedByHand(data, bodyA, bodyB)) exclude(data, bodyA, bodyB);
+}
+
+void allowByHand(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
+  if (isExcludedByHand(data, bodyA, bodyB)) endExclusion(data, bodyA, bodyB);
+}
+
 Pose worldFrame(const WorldData& data, const JointData& joint, int side) {
   if (joint.body[side] == kNone) return joint.frame[side];
   const BodyData& body = data.bodies[joint.body[side]];

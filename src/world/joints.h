@@ -45,6 +45,10 @@ void setEnabled(WorldData& data, uint32_t slot, bool enabled);
 void setBreaks(WorldData& data, uint32_t slot, const JointBreak& limits);
 void setFrames(WorldData& data, uint32_t slot, const Pose& frameA, const Pose& frameB);  ///< checked before
 
+/// What the user excludes by hand: one of the pair's exclusions (pairs.h), beside those of its joints.
+void excludeByHand(WorldData& data, uint32_t bodyA, uint32_t bodyB);
+void allowByHand(WorldData& data, uint32_t bodyA, uint32_t bodyB);
+
 /// The rotation that takes inner axes to the user's (D6Data::turned).
 Quat innerAxes(int turned);
 

@@ -205,4 +205,10 @@ bool isExcluded(const WorldData& data, uint32_t bodyA, uint32_t bodyB) {
   return std::binary_search(data.excludedPairs.begin(), data.excludedPairs.end(), slotPair(bodyA, bodyB));
 }
 
+size_t exclusionsOf(const WorldData& data, uint32_t bodyA, uint32_t bodyB) {
+  const auto [first, last] =
+      std::equal_range(data.excludedPairs.begin(), data.excludedPairs.end(), slotPair(bodyA, bodyB));
+  return static_cast<size_t>(last - first);
+}
+
 }  // namespace avbd

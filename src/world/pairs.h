@@ -46,6 +46,7 @@ void exclude(WorldData& data, uint32_t bodyA, uint32_t bodyB);
 void endExclusion(WorldData& data, uint32_t bodyA, uint32_t bodyB);
 void endExclusionsOf(WorldData& data, uint32_t body);
 bool isExcluded(const WorldData& data, uint32_t bodyA, uint32_t bodyB);
+size_t exclusionsOf(const WorldData& data, uint32_t bodyA, uint32_t bodyB);  ///< how often the pair is excluded
 
 /// Whether its pairs are void.
 bool isForgotten(const WorldData& data, uint32_t shape);

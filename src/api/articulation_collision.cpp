@@ -1,0 +1,72 @@
+// Articulations: which links collide with each other (articulation.h). Links are bodies of the world, so their rule is
+// kept as the world's own exclusions.
+#include <avbd/articulation.h>
+#include <avbd/world.h>
+
+#include <algorithm>
+#include <set>
+
+#include "world/check.h"
+
+namespace avbd {
+namespace {
+
+using BodyPair = std::array<BodyId, 2>;
+
+BodyPair sorted(BodyPair pair) { return {std::min(pair[0], pair[1]), std::max(pair[0], pair[1])}; }
+
+/// Ascending.
+std::vector<BodyId> livingLinks(const World& world, const Articulation& tree, const Path& call) {
+  std::vector<BodyId> ids;
+  const Path path = call / "links";
+  for (size_t i = 0; i < tree.links().size(); ++i) {
+    const BodyId body = tree.links()[i].body;
+    if (!world.isAlive(body)) path[i].refuse(toText(body), "must be a living body of this world");
+    ids.push_back(body);
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+std::set<BodyPair> checkedPairs(const World& world, std::span<const BodyPair> pairs, std::span<const BodyId> links,
+                                const Path& path) {
+  std::set<BodyPair> out;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const Path pair = path[i];
+    for (size_t side = 0; side < 2; ++side) {
+      const BodyId body = pairs[i][side];
+      if (!world.isAlive(body)) pair[side].refuse(toText(body), "must name a living body of this world");
+      if (!std::binary_search(links.begin(), links.end(), body))
+        pair[side].refuse(toText(body), "must name a body of the articulation");
+    }
+    if (pairs[i][0] == pairs[i][1]) pair[1].refuse(toText(pairs[i][1]), "must differ from the other link");
+    out.insert(sorted(pairs[i]));
+  }
+  return out;
+}
+
+}  // namespace
+
+void Articulation::setSelfCollision(World& world, const SelfCollision& rule) const {
+  const Path call("Articulation::setSelfCollision"), path = call / "rule";
+  const std::vector<BodyId> links = livingLinks(world, *this, call);
+  const std::set<BodyPair> excluded = checkedPairs(world, rule.excluded, links, path / "excluded");
+  for (size_t i = 0; i < links.size(); ++i) {
+    for (size_t j = i + 1; j < links.size(); ++j) {
+      if (!rule.enabled || excluded.contains({links[i], links[j]}))
+        world.excludeCollision(links[i], links[j]);
+      else
+        world.allowCollision(links[i], links[j]);
+    }
+  }
+}
+
+std::vector<std::array<BodyId, 2>> Articulation::excludedPairs(const World& world) const {
+  const std::vector<BodyId> links = livingLinks(world, *this, Path("Articulation::excludedPairs"));
+  const auto isLink = [&](BodyId id) { return std::binary_search(links.begin(), links.end(), id); };
+  std::vector<BodyPair> pairs = world.excludedPairs();
+  std::erase_if(pairs, [&](const BodyPair& pair) { return !isLink(pair[0]) || !isLink(pair[1]); });
+  return pairs;
+}
+
+}  // namespace avbd
