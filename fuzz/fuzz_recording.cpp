@@ -77,6 +77,7 @@ void checkFrame(const RecordedFrame& frame, const Recording& head) {
   require(frame.velocities.empty() || frame.velocities.size() == head.bodies.size(), "velocities that do not fit");
   require(frame.joints.empty() || frame.joints.size() == head.joints.size(), "what joints did that there are not");
   const auto fits = [&](uint32_t shape) { return shape == kNotRecorded || shape < head.shapes.size(); };
+  require(frame.residuals.empty() || frame.residuals.size() == residualCount(head), "residuals of no joint");
   for (const RecordedContact& c : frame.contacts)
     require(fits(c.shapeA) && fits(c.shapeB), "a contact of a shape that there is not");
   for (const RecordedEvent& e : frame.events) {
@@ -93,12 +94,16 @@ void checkHead(const Recording& head) {
     if (const auto* f = std::get_if<HeightField>(&s.geometry)) require(f->data != nullptr, "a field without data");
   }
   for (const RecordedJoint& j : head.joints)
-    for (const uint32_t body : {j.bodyA, j.bodyB})
+    for (const uint32_t body : {j.bodyA, j.bodyB, j.moreBodies[0], j.moreBodies[1]})
       require(body == kNotRecorded || body < head.bodies.size(), "a joint of a body that there is not");
   for (const RecordedJoint& j : head.joints) {
     for (const RecordedLimit& limit : j.limits) require(limit.lower <= limit.upper, "a limit that is no range");
     require(j.coneY > 0 && j.coneZ > 0, "a cone that is none");
     require(!j.type || *j.type <= JointType::Custom, "a joint of no type");
+    for (const RecordedTerm& term : j.terms) {
+      require(term.joint == kNotRecorded || term.joint < head.joints.size(), "a term of a joint that there is not");
+      require(term.axis <= JointAxis::SwingZ, "a term of no coordinate");
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #include "viewer/encode.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace avbd::page {
@@ -157,5 +158,7 @@ void appendJoint(Bytes& out, Vec3 force, bool enabled) {
   append(out, 0, 2);
   append(out, kJointOff, 2);
 }
+
+void appendFloat(Bytes& out, float value) { append(out, std::bit_cast<uint32_t>(value), 4); }
 
 }  // namespace avbd::page

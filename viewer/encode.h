@@ -49,5 +49,6 @@ void appendContact(Bytes& out, const Range range[3], Vec3d position, Vec3 force)
 constexpr size_t kJointBytes = 4;
 constexpr uint16_t kJointOff = 65535;
 void appendJoint(Bytes& out, Vec3 force, bool enabled);
+void appendFloat(Bytes& out, float value);  ///< as it lies in memory, little endian
 
 }  // namespace avbd::page

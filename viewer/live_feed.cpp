@@ -126,12 +126,13 @@ Message Feed::frame(uint32_t number) {
   } catch (const FileError&) {
   }
   Bytes bytes;
-  bytes.reserve(20 + 28 * f.poses.size() + 24 * f.contacts.size() + 12 * f.joints.size());
+  bytes.reserve(24 + 28 * f.poses.size() + 24 * f.contacts.size() + 12 * f.joints.size() + 4 * f.residuals.size());
   put(bytes, static_cast<uint32_t>(MessageKind::Frame));
   put(bytes, number);
   put(bytes, static_cast<uint32_t>(f.poses.size()));
   put(bytes, static_cast<uint32_t>(f.contacts.size()));
   put(bytes, static_cast<uint32_t>(f.joints.size()));
+  put(bytes, static_cast<uint32_t>(f.residuals.size()));
   for (const Pose& pose : f.poses) {
     putVector(bytes, toFloat(pose.position - origin_));
     const Quat q = pose.rotation;
@@ -148,6 +149,7 @@ Message Feed::frame(uint32_t number) {
     else
       for (int i = 0; i < 3; ++i) put(bytes, NAN);
   }
+  for (const float residual : f.residuals) put(bytes, residual);
   return messageOf(std::move(bytes));
 }
 

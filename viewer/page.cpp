@@ -13,6 +13,7 @@
 
 #include "io/record/content.h"
 #include "viewer/encode.h"
+#include "viewer/head.h"
 #include "viewer/surface.h"
 
 namespace avbd {
@@ -22,12 +23,12 @@ std::string_view viewerScript();
 
 namespace {
 
-using page::base64Of;
+using page::append;
 using page::Bytes;
+using page::Head;
 using page::jsonText;
 using page::Range;
 
-constexpr uint32_t kWorld = 0xffffffffu;
 /// A script element holds this much at most: browsers limit the length of one text.
 constexpr size_t kChunkBytes = 6u << 20;
 
@@ -44,6 +45,7 @@ std::string element(const char* list, size_t index, const char* field) {
 void checkFrames(const Recording& r) {
   if (r.frames.empty()) refuse("frames", "0", "must hold at least one frame");
   double before = -std::numeric_limits<double>::infinity();
+  const size_t residuals = residualCount(r);
   for (size_t i = 0; i < r.frames.size(); ++i) {
     const RecordedFrame& f = r.frames[i];
     if (!(f.time >= before) || !std::isfinite(f.time)) {
@@ -58,6 +60,10 @@ void checkFrames(const Recording& r) {
       refuse(element("frames", i, "joints"), std::to_string(f.joints.size()),
              "must be one for each of the " + std::to_string(r.joints.size()) + " joints, or none");
     }
+    if (!f.residuals.empty() && f.residuals.size() != residuals) {
+      refuse(element("frames", i, "residuals"), std::to_string(f.residuals.size()),
+             "must be the " + std::to_string(residuals) + " of all joints, or none");
+    }
   }
 }
 
@@ -70,8 +76,10 @@ void check(const Recording& r) {
     if (body >= r.bodies.size()) refuse(element("shapes", i, "body"), std::to_string(body), range);
   }
   for (size_t i = 0; i < r.joints.size(); ++i) {
-    for (const uint32_t body : {r.joints[i].bodyA, r.joints[i].bodyB}) {
-      if (body != kWorld && body >= r.bodies.size()) refuse(element("joints", i, "body"), std::to_string(body), range);
+    const RecordedJoint& joint = r.joints[i];
+    for (const uint32_t body : {joint.bodyA, joint.bodyB, joint.moreBodies[0], joint.moreBodies[1]}) {
+      if (body != kNotRecorded && body >= r.bodies.size())
+        refuse(element("joints", i, "body"), std::to_string(body), range);
     }
   }
   checkFrames(r);
@@ -111,10 +119,6 @@ Vec3d originOf(const Recording& r) {
   const Vec3d middle{median(std::move(x)), median(std::move(y)), median(std::move(z))};
   return length(middle) < 1000 ? Vec3d{} : middle;
 }
-
-void append(std::vector<float>& out, Vec3 v) { out.insert(out.end(), {v.x, v.y, v.z}); }
-void append(std::vector<float>& out, Quat q) { out.insert(out.end(), {q.w, q.x, q.y, q.z}); }
-void append(std::vector<double>& out, Vec3d v) { out.insert(out.end(), {v.x, v.y, v.z}); }
 
 /// Bodies that move, and the range of each one's coordinates.
 struct Tracks {
@@ -173,32 +177,6 @@ std::vector<RecordedContact> strongest(const std::vector<RecordedContact>& all, 
   return kept;
 }
 
-/// Fields of the JSON head, one after the other.
-class Head {
- public:
-  explicit Head(std::ostream& out) : out_(out) { out_ << "{\"version\":1"; }
-  void text(const char* name, std::string_view value) { out_ << ",\"" << name << "\":" << jsonText(value); }
-  template <class T>
-  void numbers(const char* name, const std::vector<T>& value) {
-    out_ << ",\n\"" << name << "\":\"" << base64Of(value) << '"';
-  }
-  template <class List, class Print>
-  void list(const char* name, const List& items, Print print) {
-    out_ << ",\n\"" << name << "\":[";
-    const char* comma = "";
-    for (const auto& item : items) {
-      out_ << comma;
-      print(out_, item);
-      comma = ",";
-    }
-    out_ << ']';
-  }
-  ~Head() { out_ << "}\n"; }
-
- private:
-  std::ostream& out_;
-};
-
 void writeBodies(Head& head, const Recording& r, const Tracks& tracks) {
   std::vector<uint8_t> types;
   for (const RecordedBody& body : r.bodies) types.push_back(static_cast<uint8_t>(body.type));
@@ -256,41 +234,6 @@ void writeShapes(Head& head, const Recording& r) {
   head.list("surfaces", surfaces.all(), [](std::ostream& out, const auto& data) { page::writeSurface(out, data); });
 }
 
-constexpr uint8_t kNoType = 255;
-
-void writeJointForms(Head& head, const Recording& r) {
-  std::vector<uint8_t> types, free;
-  std::vector<float> rotations, limits, cones;
-  for (const RecordedJoint& joint : r.joints) {
-    types.push_back(joint.type ? static_cast<uint8_t>(*joint.type) : kNoType);  // src/joints.js: kTypes
-    free.push_back(joint.freeAxes);
-    append(rotations, joint.frameA.rotation);
-    append(rotations, joint.frameB.rotation);
-    for (const RecordedLimit& limit : joint.limits) limits.insert(limits.end(), {limit.lower, limit.upper});
-    cones.insert(cones.end(), {joint.coneY, joint.coneZ});
-  }
-  head.numbers("jointTypes", types);
-  head.numbers("jointFree", free);
-  head.numbers("jointRotations", rotations);
-  head.numbers("jointLimits", limits);
-  head.numbers("jointCones", cones);
-  head.list("jointNames", r.joints, [](std::ostream& out, const RecordedJoint& joint) { out << jsonText(joint.name); });
-}
-
-void writeJoints(Head& head, const Recording& r) {
-  std::vector<uint32_t> bodies;
-  std::vector<double> anchors;
-  for (const RecordedJoint& joint : r.joints) {
-    bodies.insert(bodies.end(), {joint.bodyA, joint.bodyB});
-    append(anchors, joint.frameA.position);
-    append(anchors, joint.frameB.position);
-  }
-  head.numbers("jointBodies", bodies);
-  head.numbers("jointAnchors", anchors);
-  if (std::any_of(r.joints.begin(), r.joints.end(), [](const RecordedJoint& joint) { return joint.type.has_value(); }))
-    writeJointForms(head, r);
-}
-
 void writeFigures(Head& head, const Recording& r, size_t contactsKept) {
   std::vector<double> times;
   std::vector<float> energy, penetration, gap, excess, excessAngle;
@@ -331,12 +274,15 @@ bool hasJointStates(const Recording& r) {
   return std::any_of(r.frames.begin(), r.frames.end(), [](const RecordedFrame& f) { return !f.joints.empty(); });
 }
 
-// A frame that does not say shows no forces.
+// A frame that does not say shows no forces, and residuals that are no numbers.
 void appendJoints(Bytes& bytes, const Recording& r, const RecordedFrame& f) {
   for (size_t i = 0; i < r.joints.size(); ++i) {
     const RecordedJointState state = f.joints.empty() ? RecordedJointState{} : f.joints[i];
     page::appendJoint(bytes, -state.reaction.force, state.enabled);
   }
+  std::vector<float> residuals = f.residuals;
+  residuals.resize(residualCount(r), NAN);
+  for (const float residual : residuals) page::appendFloat(bytes, residual);
 }
 
 /// The frames' bytes in script elements of a few megabytes, each a whole number of frames.
@@ -380,7 +326,7 @@ void writeHead(std::ostream& out, const Recording& r, const Tracks& tracks, Vec3
   head.numbers("contactRange", contactRange);
   writeBodies(head, r, tracks);
   writeShapes(head, r);
-  writeJoints(head, r);
+  page::writeJoints(head, r);
   head.numbers("jointStates", std::vector<uint8_t>{static_cast<uint8_t>(hasJointStates(r))});
   writeFigures(head, r, contactsKept);
 }
@@ -458,7 +404,7 @@ page::LiveHead page::liveHead(const Recording& recording) {
     head.numbers("contactRange", std::vector<double>{});
     writeBodies(head, recording, liveTracks(recording, origin));
     writeShapes(head, recording);
-    writeJoints(head, recording);
+    page::writeJoints(head, recording);
     Recording none;
     none.report = recording.report;
     writeFigures(head, none, 0);

@@ -253,6 +253,24 @@ RecordedJoint jointOf(uint32_t body, const Pose& frameA, const Pose& frameB, Joi
   return joint;
 }
 
+/// Two buckets on a rope over two wheels, the door coupled to the drawer, and a joint of the user's own.
+void addCouplings(Recording& r) {
+  const uint32_t a = add(r, "bucket_a", BodyType::Dynamic, Cylinder{0.2f, 0.2f});
+  const uint32_t b = add(r, "bucket_b", BodyType::Dynamic, Cylinder{0.2f, 0.2f});
+  RecordedJoint rope{a, b, {{0, 0.2, 0}, {}}, {{0, 0.2, 0}, {}}, JointType::Pulley, "hoist"};
+  rope.wheels = {{{-1, 3, -1.5}, {0.5, 3, -1.5}}};
+  rope.residuals = 1;
+  RecordedJoint coupling{kNotRecorded, kNotRecorded, {}, {}, JointType::Coupling};
+  coupling.terms = {{0, JointAxis::Twist, {0.5f, 0, 0, 0}}, {1, JointAxis::LinearX, {-1, 0, 0.25f, 0}}};
+  coupling.rest = 0.1;
+  coupling.residuals = 1;
+  RecordedJoint custom{1, 3, {}, {}, JointType::Custom};
+  custom.family = "<b>rail</b>";
+  custom.moreBodies = {2, kNotRecorded};
+  custom.residuals = 2;
+  r.joints.insert(r.joints.end(), {rope, coupling, custom});
+}
+
 /// A door on a hinge, a drawer on a slider, an arm in a cone, a ball on a rope that breaks; y is up.
 Recording jointsRun() {
   Recording r;
@@ -274,6 +292,7 @@ Recording jointsRun() {
   r.joints[2].coneZ = 0.9f;
   r.joints[2].limits[3] = {-0.3f, 0.3f};
   r.joints[3].limits[0] = {0, 1};
+  addCouplings(r);
   for (int i = 0; i <= 120; ++i) {
     RecordedFrame f;
     f.time = i / 60.0;
@@ -285,12 +304,18 @@ Recording jointsRun() {
                {Vec3d{-3, 1, 0} + rotate(opened, Vec3d{0.5, 0, 0}), opened},
                {{-0.6 + 0.7 * wave, 0.5, 0}, {}},
                {Vec3d{1.5, 1.8, 0} - rotate(leaning, Vec3d{0, 0.5, 0}), leaning},
-               {{3, 1.4 - std::min(1.15, 4.9 * fallen * fallen), 0}, {}}};
+               {{3, 1.4 - std::min(1.15, 4.9 * fallen * fallen), 0}, {}},
+               {{-1, 1.5 + 0.5 * wave, -1.5}, {}},
+               {{0.5, 1.5 - 0.5 * wave, -1.5}, {}}};
     const auto pull = static_cast<float>(wave);
     f.joints = {{{{20 * pull, -80, 0}, {}}, true},
                 {{{0, -40, 0}, {}}, true},
                 {{{0, -60, 30 * pull}, {}}, true},
-                {{{0, -90, 0}, {}}, i <= 60}};
+                {{{0, -90, 0}, {}}, i <= 60},
+                {{{0, 50, 0}, {}}, true},
+                {{{}, {2, 0, 0}}, true},
+                {{}, i <= 60}};
+    f.residuals = {static_cast<float>(1e-4 * wave), static_cast<float>(-0.002 * wave), 0.25f, -3e-6f};
     f.limitExcessMax = 0.002 * std::max(0.0, wave - 0.8);
     f.limitExcessAngleMax = 0.01 * std::max(0.0, -wave - 0.5);
     f.jointGapMax = 1e-4 * std::fabs(wave);

@@ -216,6 +216,25 @@ TEST(Page, WhatJointsDidIsStoredWhereItIsKnown) {
   EXPECT_NE(text.find("\"jointNames\":[\"\\u003c/script\\u003e\"]"), std::string::npos);
 }
 
+TEST(Page, ResidualsStandBehindForces) {
+  Recording r = twoBodies();
+  r.joints = {{0, 1, {}, {}, JointType::Pulley}, {1, kNotRecorded, {}, {}, JointType::Custom}};
+  r.joints[0].residuals = 1;
+  r.joints[1].residuals = 2;
+  r.joints[1].family = "</script>";
+  r.frames[1].joints.resize(2);
+  r.frames[1].residuals = {1, 2, 3};
+  const std::string text = pageOf(r);
+  EXPECT_EQ(frameCharacters(text), (3 * (15 + 2 * page::kJointBytes + 3 * 4) + 2) / 3 * 4);
+  EXPECT_NE(text.find("\"jointResiduals\":\"" + text64("\x01\x02") + '"'), std::string::npos);
+  EXPECT_NE(text.find("\"jointFamilies\":[\"\",\"\\u003c/script\\u003e\"]"), std::string::npos);
+  r.frames[1].residuals.pop_back();
+  EXPECT_EQ(messageOf(r), "Recording.frames[1].residuals = 2: must be the 3 of all joints, or none");
+  r.frames[1].residuals.clear();
+  r.joints[1].moreBodies[0] = 2;
+  EXPECT_NE(messageOf(r).find("Recording.joints[1].body = 2"), std::string::npos);
+}
+
 TEST(PageEncoding, AJointThatIsOffIsToldFromOneWithoutForce) {
   page::Bytes bytes;
   page::appendJoint(bytes, {}, true);

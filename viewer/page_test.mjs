@@ -279,6 +279,30 @@ async function testShapes() {
   await page.close();
 }
 
+/// Ropes run over their wheels; the panel names what couples and how far it is from holding.
+async function checkCouplings(page) {
+  const lines = () => ask(page, () => window.avbdViewer.couplingLines());
+  const plain = await pixels(page);
+  assert.deepEqual(await lines(), {ropes: 0, wheels: 0, lines: 0});
+  await ask(page, () => window.avbdViewer.toggle('joints', true));
+  const on = await pixels(page);
+  // From a bucket over two wheels to the other; one line of the coupling, two between three bodies.
+  assert.deepEqual(await lines(), {ropes: 3, wheels: 2, lines: 1 + 2});
+  assert.ok(differing(plain, on) > 100, `ropes show: ${differing(plain, on)}`);
+  await page.screenshot({path: join(work, 'couplings.png')});
+  const rows = await page.locator('.couplings tr').allInnerTexts();
+  assert.equal(rows.length, 3);
+  assert.match(rows[0], /^hoist\s+99\.7 µm$/);
+  assert.match(rows[1], /^0\.5 door_hinge\.twist − drawer\.x \+ 0\.25 drawer\.x³ = 0\.1\s+-0\.001995$/);
+  assert.match(rows[2], /^<b>rail<\/b>\s+0\.25 {2}-0\.000003$/);
+  await ask(page, () => window.avbdViewer.seek(1.5));
+  await settle(page);
+  assert.match((await page.locator('.couplings tr').allInnerTexts())[2], /off$/);
+  assert.deepEqual(await lines(), {ropes: 3, wheels: 2, lines: 1});
+  await ask(page, () => { window.avbdViewer.toggle('joints', false); window.avbdViewer.seek(0.5); });
+  await settle(page);
+}
+
 /// Each switch draws its own lines, and only those; a joint that broke shows nothing.
 async function testJoints() {
   const {page, complaints} = await open('joints');
@@ -288,6 +312,7 @@ async function testJoints() {
   const none = {axes: 0, limits: 0, pointers: 0, forces: 0};
   await settle(page);
   assert.deepEqual(await lines(), none);
+  await checkCouplings(page);
   const plain = await pixels(page);
   for (const [name, key, parts] of [['Frames', 'x', ['axes']], ['Limits', 'm', ['limits', 'pointers']], ['Reactions', 'b', ['forces']]]) {
     await page.locator('.chip', {hasText: name}).first().click();

@@ -25,7 +25,7 @@ std::string typeName(uint32_t type);
 
 // The file's head: magic, major and minor version, checksum.
 inline constexpr uint8_t kMagic[8] = {0x89, 'A', 'V', 'B', 'D', '\r', '\n', 0x1a};
-inline constexpr uint16_t kMajor = 1, kMinor = 1;
+inline constexpr uint16_t kMajor = 1, kMinor = 2;
 inline constexpr size_t kFileHeadBytes = 16;
 Bytes fileHead();
 /// Throws FileError, which names what is wrong: no recording, a damaged head, a version that this reader cannot read.

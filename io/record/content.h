@@ -78,13 +78,15 @@ struct FrameBlock {
   uint32_t joints = 0;  ///< of each frame; 0: what they did is not known
   std::vector<float> jointForce, jointTorque;
   std::vector<uint8_t> jointEnabled;
+  size_t residualsEach = 0;  ///< of each frame; 0: not known
+  std::vector<float> residuals;
 
   size_t size() const { return times.size(); }
   /// At least what its content takes.
   size_t bytes() const;
   /// At least what a frame adds to that.
   static size_t bytesOf(const RecordedFrame& frame);
-  /// The frame must have as many bodies and joints, and velocities or none, as those before it.
+  /// The frame must have as many bodies, joints and residuals, and velocities or none, as those before it.
   void add(const RecordedFrame& frame, const Recording& head);
   RecordedFrame frame(size_t i, const Recording& head) const;
 

@@ -92,9 +92,29 @@ void printSurface(std::ostream& out, const Surfaces::Data& data) {
   out << '}';
 }
 
+constexpr const char* kAxes[] = {"linear_x", "linear_y", "linear_z", "twist", "swing_y", "swing_z"};
+
+/// What only pulleys, couplings and custom joints have.
+void printLink(std::ostream& out, const RecordedJoint& joint) {
+  if (joint.type == JointType::Pulley)
+    out << ",\"wheels\":[" << jsonList(joint.wheels[0]) << ',' << jsonList(joint.wheels[1])
+        << "],\"ratio\":" << jsonNumber(joint.ratio);
+  if (joint.type == JointType::Coupling) {
+    printList(out << ',', "terms", joint.terms, [&](const RecordedTerm& term) {
+      out << "{\"joint\":" << indexText(term.joint) << ",\"axis\":\"" << kAxes[static_cast<size_t>(term.axis)] << "\",";
+      printList(out, "factors", term.factors, [&](float factor) { out << jsonNumber(factor); });
+      out << '}';
+    });
+    out << ",\"rest\":" << jsonNumber(joint.rest);
+  }
+  if (joint.type == JointType::Custom)
+    out << ",\"family\":" << jsonText(joint.family) << ",\"bodyC\":" << indexText(joint.moreBodies[0])
+        << ",\"bodyD\":" << indexText(joint.moreBodies[1]);
+  if (joint.residuals > 0) out << ",\"residuals\":" << +joint.residuals;
+}
+
 /// What is known of a joint beyond its anchors; null is a limit that there is not.
 void printJointForm(std::ostream& out, const RecordedJoint& joint) {
-  constexpr const char* kAxes[] = {"linear_x", "linear_y", "linear_z", "twist", "swing_y", "swing_z"};
   out << ",\"type\":\"" << jointTypeName(*joint.type) << "\",\"name\":" << jsonText(joint.name)
       << ",\"rotationA\":" << quatList(joint.frameA.rotation) << ",\"rotationB\":" << quatList(joint.frameB.rotation)
       << ",\"free\":[";
@@ -109,6 +129,7 @@ void printJointForm(std::ostream& out, const RecordedJoint& joint) {
     out << '[' << jsonNumber(limit.lower) << ',' << jsonNumber(limit.upper) << ']';
   });
   out << ",\"cone\":[" << jsonNumber(joint.coneY) << ',' << jsonNumber(joint.coneZ) << ']';
+  printLink(out, joint);
 }
 
 void printHead(std::ostream& out, const Recording& head) {
@@ -152,6 +173,7 @@ void printFrame(std::ostream& out, const RecordedFrame& f) {
     out << "{\"force\":" << jsonList(joint.reaction.force) << ",\"torque\":" << jsonList(joint.reaction.torque)
         << ",\"enabled\":" << (joint.enabled ? "true" : "false") << '}';
   });
+  printList(out << ',', "residuals", f.residuals, [&](float value) { out << jsonNumber(value); });
   printList(out << ',', "contacts", f.contacts, [&](const RecordedContact& c) {
     out << "{\"position\":" << jsonList(c.position) << ",\"force\":" << jsonList(c.force)
         << ",\"normal\":" << jsonList(c.normal) << ",\"separation\":" << jsonNumber(c.separation)

@@ -105,6 +105,33 @@ std::string checked(const std::filesystem::path& file, const std::string& more =
   return pclose(pipe) == 0 ? text : "refused: " + text;
 }
 
+TEST(RecordExport, JsonHoldsPulleysCouplingsAndCustomJoints) {
+  const Folder folder;
+  Recording head = sampleHead();
+  for (const RecordedJoint& joint : sampleLinks()) head.joints.push_back(joint);
+  {
+    RecordWriter writer(folder.file("a.avbd"), head);
+    writer.add(sampleFrame(head, 1));
+  }
+  RecordReader reader(folder.file("a.avbd"));
+  std::stringstream out;
+  exportJson(reader, out);
+  const Json json = Json::parse(out.str()), joints = json["joints"];
+  EXPECT_EQ(joints[2]["type"], "pulley");
+  EXPECT_EQ(joints[2]["wheels"], (Json{{1e6, 2, 3}, {1e6, 5, 6}}));
+  EXPECT_EQ(joints[2]["ratio"], 2.5);
+  EXPECT_EQ(joints[2]["limits"][0], (Json{0, 7}));
+  EXPECT_EQ(joints[3]["terms"][0], (Json{{"joint", 0}, {"axis", "swing_z"}, {"factors", {1, 0.5, 0, -2}}}));
+  EXPECT_EQ(joints[3]["terms"][1]["joint"], nullptr);
+  EXPECT_EQ(joints[3]["rest"], 0.1);
+  EXPECT_EQ(joints[4]["family"], "screw, \"left\"");
+  EXPECT_EQ(joints[4]["bodyC"], 2);
+  EXPECT_EQ(joints[4]["bodyD"], nullptr);
+  EXPECT_EQ(joints[4]["residuals"], 2);
+  EXPECT_EQ(joints[0].count("residuals") + joints[0].count("terms") + joints[0].count("wheels"), 0u);
+  EXPECT_EQ(json["frames"][0]["residuals"].size(), 4u);
+}
+
 TEST(RecordExport, McapIsWhatTheSpecificationSays) {
   const Folder folder;
   RecordReader reader(sampleFile(folder, 600));

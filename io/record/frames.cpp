@@ -41,6 +41,7 @@ enum FrameField : uint16_t {
   kJointForce = 41,
   kJointTorque = 42,
   kJointEnabled = 43,
+  kResiduals = 44,
 };
 
 constexpr size_t kFieldHeads = 40 * 12;  // of all fields
@@ -87,6 +88,9 @@ void readJoints(const FieldReader& f, const Recording& head, FrameBlock& b) {
   if (all > 0 && b.jointForce.empty()) f.refuse(kJointForce, "is missing");
   // Where the chunk of joints was damaged, nobody knows whose these are.
   if (b.joints != head.joints.size()) b.joints = 0;
+  if (b.joints == 0 || !f.has(kResiduals)) return;
+  b.residualsEach = residualCount(head);
+  b.residuals = f.listOf<float>(kResiduals, b.size() * b.residualsEach);
 }
 
 }  // namespace
@@ -94,12 +98,12 @@ void readJoints(const FieldReader& f, const Recording& head, FrameBlock& b) {
 size_t FrameBlock::bytes() const {
   return kFieldHeads + 8 * (positions.size() + 8 * times.size() + eventPosition.size()) +
          4 * (rotations.size() + 2 * linear.size() + 12 * contactA.size() + 8 * eventA.size()) +
-         25 * jointEnabled.size();
+         25 * jointEnabled.size() + 4 * residuals.size();
 }
 
 size_t FrameBlock::bytesOf(const RecordedFrame& f) {
   return 8 * 8 + 40 * f.poses.size() + 24 * f.velocities.size() + 48 * f.contacts.size() + 56 * f.events.size() +
-         25 * f.joints.size();
+         25 * f.joints.size() + 4 * f.residuals.size();
 }
 
 void FrameBlock::add(const RecordedFrame& f, const Recording& head) {
@@ -149,6 +153,8 @@ void FrameBlock::addJoints(const RecordedFrame& f) {
     append(jointTorque, joint.reaction.torque);
     jointEnabled.push_back(joint.enabled ? 1 : 0);
   }
+  residualsEach = f.residuals.size();
+  residuals.insert(residuals.end(), f.residuals.begin(), f.residuals.end());
 }
 
 RecordedFrame FrameBlock::frame(size_t i, const Recording& head) const {
@@ -168,6 +174,8 @@ RecordedFrame FrameBlock::frame(size_t i, const Recording& head) const {
   for (size_t k = 0, from = i * joints; k < joints; ++k, ++from)
     f.joints.push_back(
         {{vectorAt(jointForce, from), vectorAt(jointTorque, from)}, at<uint8_t>(jointEnabled, from, 1) != 0});
+  const auto own = std::span(residuals).subspan(i * residualsEach, residualsEach);
+  f.residuals.assign(own.begin(), own.end());
   f.contactsLeftOut = at(contactsLeftOut, i);
   for (size_t from = sum(contactCounts, i), left = at(contactCounts, i); left > 0; --left, ++from) {
     const uint32_t a = at(contactA, from, kNotRecorded), b = at(contactB, from, kNotRecorded);
@@ -218,6 +226,7 @@ Bytes framesContent(const FrameBlock& b) {
   out.list(kJointForce, b.jointForce, Encoding::Delta, 3 * b.joints);
   out.list(kJointTorque, b.jointTorque, Encoding::Delta, 3 * b.joints);
   out.list(kJointEnabled, b.jointEnabled);
+  if (b.residualsEach > 0) out.list(kResiduals, b.residuals, Encoding::Delta, static_cast<uint32_t>(b.residualsEach));
   return out.bytes();
 }
 

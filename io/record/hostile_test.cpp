@@ -169,6 +169,50 @@ TEST(RecordHostile, JointsThatAreNoneAreSaidAndLeftOut) {
   expectNote(notes([](FieldWriter& out) { out.value(7, uint8_t{77}); }, 1), "types that are not known");
 }
 
+TEST(RecordHostile, LinksThatNameNothingAreSaidAndLeftOut) {
+  const Folder folder;
+  const auto expectNote = [&](const char* part, auto change) {
+    const RecordReader reader(folder.write("a.avbd", textOf(fileHead()) + jointText(change)));
+    EXPECT_TRUE(reader.head().joints.empty());
+    EXPECT_NE(notesOf(reader).find(part), std::string::npos) << notesOf(reader);
+  };
+  const auto term = [](FieldWriter& out, uint32_t count, uint32_t joint, uint8_t axis) {
+    out.list(15, std::vector<uint32_t>{count});
+    out.list(16, std::vector<uint32_t>{joint});
+    out.list(17, std::vector<uint8_t>{axis});
+    out.list(18, std::vector<float>{1, 0, 0, 0});
+  };
+  expectNote("field 16 names a joint", [&](FieldWriter& out) { term(out, 1, 1, 0); });
+  expectNote("field 17 names a coordinate", [&](FieldWriter& out) { term(out, 1, 0, 6); });
+  expectNote("field 16 has 1 elements", [&](FieldWriter& out) { term(out, 0xffffffffu, 0, 0); });
+  expectNote("field 15 stands alone", [](FieldWriter& out) { out.list(15, std::vector<uint32_t>{0xffffffffu}); });
+  expectNote("field 13 has 5 elements", [](FieldWriter& out) { out.list(13, std::vector<double>(5)); });
+  expectNote("field 20 names a body", [](FieldWriter& out) { out.list(20, std::vector<uint32_t>{kNotRecorded, 0}); });
+  expectNote("field 21", [](FieldWriter& out) { out.texts(21, {"a", "b"}); });
+  expectNote("field 23 has 2 elements", [](FieldWriter& out) { out.list(23, std::vector<uint8_t>{1, 1}); });
+}
+
+TEST(RecordHostile, ResidualsFitTheJoints) {
+  const Folder folder;
+  const auto frameOf = [&](std::vector<float> residuals, uint8_t each) {
+    FieldWriter out = timesOnly(1, 0);
+    out.value(40, 1u);
+    out.list(41, std::vector<float>(3));
+    out.list(44, residuals);
+    // Of a type of the future, which may have more of them.
+    const std::string joint = jointText([&](FieldWriter& fields) {
+      fields.value(7, uint8_t{77});
+      fields.value(23, each);
+    });
+    return RecordReader(folder.write("a.avbd", textOf(fileHead()) + joint + chunkText(kFrames, out))).frame(0);
+  };
+  EXPECT_EQ(frameOf({1, 2, 3}, 3).residuals, (std::vector<float>{1, 2, 3}));
+  EXPECT_TRUE(frameOf({}, 0).residuals.empty());
+  EXPECT_THROW(frameOf({1, 2}, 3), FileError);
+  EXPECT_THROW(frameOf({1}, 0), FileError);
+  EXPECT_THROW(frameOf({}, 255), FileError);
+}
+
 TEST(RecordHostile, WhatJointsDidFitsTheFrames) {
   const Folder folder;
   const auto frameOf = [&](auto change, size_t joints) {

@@ -1,6 +1,7 @@
 // Joints: what they join and where, what they leave free and how far that may go.
 #include "io/record/chunk.h"
 #include "io/record/content.h"
+#include "io/record/joint_links.h"
 
 namespace avbd::record {
 namespace {
@@ -30,6 +31,7 @@ struct Columns {
   std::vector<uint8_t> types, free;
   std::vector<std::string> names;
   bool anyType = false;
+  LinkColumns links;
 
   void add(const RecordedJoint& joint);
   RecordedJoint joint(size_t i) const;
@@ -59,10 +61,12 @@ void Columns::add(const RecordedJoint& joint) {
   for (const RecordedLimit& limit : joint.limits) limits.insert(limits.end(), {limit.lower, limit.upper});
   cones.insert(cones.end(), {joint.coneY, joint.coneZ});
   anyType = anyType || joint.type;
+  links.add(joint);
 }
 
 RecordedJoint Columns::joint(size_t i) const {
   RecordedJoint joint{a[i], b[i], poseAt(anchorA, rotationA, i), poseAt(anchorB, rotationB, i)};
+  links.fill(i, joint);
   if (types.empty() || types[i] > static_cast<uint8_t>(JointType::Custom)) return joint;
   joint.type = static_cast<JointType>(types[i]);
   if (!names.empty()) joint.name = names[i];
@@ -89,6 +93,7 @@ Columns columnsOf(const FieldReader& f) {
   c.free = f.listOf<uint8_t>(kFree, n);
   c.limits = f.listOf<float>(kLimits, 12 * n);
   c.cones = f.listOf<float>(kCones, 2 * n);
+  c.links = LinkColumns(f, n);
   return c;
 }
 
@@ -117,6 +122,7 @@ Bytes jointsContent(const Recording& r) {
   out.list(kFree, c.free);
   out.list(kLimits, c.limits, Encoding::Shuffled);
   out.list(kCones, c.cones, Encoding::Shuffled);
+  c.links.write(out);
   return out.bytes();
 }
 
@@ -127,6 +133,7 @@ void HeadReader::takeJoints(const FieldReader& f) {
   for (size_t i = 0; i < c.a.size(); ++i)
     if (!fits(c.a[i]) || !fits(c.b[i])) f.refuse(kBodyA, "names a body that there is not");
   checkLimits(f, c);
+  c.links.check(f, recording.bodies.size(), recording.joints.size() + c.a.size());
   bool unknown = false;
   for (size_t i = 0; i < c.a.size(); ++i) {
     recording.joints.push_back(c.joint(i));

@@ -37,17 +37,32 @@ struct RecordedLimit {
   friend bool operator==(const RecordedLimit&, const RecordedLimit&) = default;
 };
 
-/// As it was when the recording began.
+/// What a coordinate q of a joint adds to a coupling: the sum of factors[i] q^(i + 1).
+struct RecordedTerm {
+  uint32_t joint = kNotRecorded;  ///< index into joints
+  JointAxis axis = JointAxis::Twist;
+  std::array<float, 4> factors{};
+  friend bool operator==(const RecordedTerm&, const RecordedTerm&) = default;
+};
+
+/// As it was when the recording began. Couplings and custom joints have no frames.
 struct RecordedJoint {
   uint32_t bodyA = 0, bodyB = 0;    ///< index into bodies; kNotRecorded is the world
   Pose frameA{}, frameB{};          ///< in each body's frame; in the world where there is no body
   std::optional<JointType> type{};  ///< none: not known, nor what stands below, nor the frames' rotations
   std::string name{};               ///< of its coordinates in the model's file, with commas between; may be empty
   uint8_t freeAxes = 0;             ///< bit i: the coordinate JointAxis(i) is not locked
-  /// By JointAxis. Of a DistanceJoint the first is that of its length.
+  /// By JointAxis. Of a DistanceJoint or PulleyJoint the first is that of its length, of a Coupling that of L.
   std::array<RecordedLimit, 6> limits{};
   /// Of a SwingCone [rad]; infinite: none.
   float coneY = std::numeric_limits<float>::infinity(), coneZ = std::numeric_limits<float>::infinity();
+  std::array<Vec3d, 2> wheels{};      ///< of a pulley, in the world [m]: where A's and B's part of the rope ends
+  float ratio = 1;                    ///< of a pulley: the length is that of A's part + ratio that of B's
+  std::vector<RecordedTerm> terms{};  ///< of a coupling
+  double rest = 0;       ///< of a coupling that is locked (freeAxes 0): what it holds the sum of its terms at
+  std::string family{};  ///< of a custom joint
+  std::array<uint32_t, 2> moreBodies{kNotRecorded, kNotRecorded};  ///< of a custom joint: its third and fourth
+  uint8_t residuals = 0;  ///< how many numbers RecordedFrame::residuals has of it
 };
 
 struct RecordedContact {
@@ -91,6 +106,10 @@ struct RecordedFrame {
   double limitExcessMax = std::numeric_limits<double>::quiet_NaN();
   double limitExcessAngleMax = std::numeric_limits<double>::quiet_NaN();
   std::vector<RecordedJointState> joints{};  ///< of all joints, in order of Recording::joints, or empty
+  /// How far pulleys, couplings and custom joints are from holding, one joint after the other in that order, or empty.
+  /// Of a pulley: its length less what it may be [m], with slack no less than 0. Of a coupling: L - rest; of a free one
+  /// how far L lies beyond its limits. Of a custom joint: C of each row, in the row's unit. Zero where not enabled.
+  std::vector<float> residuals{};
 };
 
 struct Recording {
@@ -104,5 +123,12 @@ struct Recording {
   std::vector<RecordedFrame> frames;
   std::vector<std::pair<std::string, std::string>> report;  ///< lines of the report: label, value
 };
+
+/// Numbers in RecordedFrame::residuals where there are any.
+inline size_t residualCount(const Recording& head) {
+  size_t count = 0;
+  for (const RecordedJoint& joint : head.joints) count += joint.residuals;
+  return count;
+}
 
 }  // namespace avbd

@@ -37,6 +37,24 @@ inline std::vector<RecordedJoint> sampleJoints() {
   return {known, {kNotRecorded, 1, {{1e6, 0, 0}, {}}, {{0, 0, 0.1}, {}}}};
 }
 
+/// A pulley, a coupling of the hip with what is not recorded, and a custom joint of two rows and three bodies.
+inline std::vector<RecordedJoint> sampleLinks() {
+  RecordedJoint pulley{0, 1, {{0, 1, 0}, {}}, {{0, 0, 2}, {}}, JointType::Pulley, "hoist"};
+  pulley.wheels = {{{1e6, 2, 3}, {1e6, 5, 6}}};
+  pulley.ratio = 2.5f;
+  pulley.limits[0] = {0, 7};
+  pulley.residuals = 1;
+  RecordedJoint coupling{kNotRecorded, kNotRecorded, {}, {}, JointType::Coupling};
+  coupling.terms = {{0, JointAxis::SwingZ, {1, 0.5f, 0, -2}}, {kNotRecorded, JointAxis::LinearY, {0, 0, 3, 0}}};
+  coupling.rest = 0.1;
+  coupling.residuals = 1;
+  RecordedJoint custom{1, kNotRecorded, {}, {}, JointType::Custom};
+  custom.family = "screw, \"left\"";
+  custom.moreBodies = {2, kNotRecorded};
+  custom.residuals = 2;
+  return {pulley, coupling, custom};
+}
+
 inline Recording sampleHead(size_t bodies = 3) {
   Recording r;
   r.title = "sample \"ä\" \n";
@@ -79,6 +97,7 @@ inline RecordedFrame sampleFrame(const Recording& head, size_t number, bool velo
   f.limitExcessAngleMax = 0.25;
   for (size_t i = 0; i < head.joints.size(); ++i)
     f.joints.push_back({{{static_cast<float>(number), 1, -2}, {0, 0, 3}}, (number + i) % 3 != 0});
+  for (size_t i = 0; i < residualCount(head); ++i) f.residuals.push_back(1e-3f * static_cast<float>(number + i));
   return f;
 }
 

@@ -16,6 +16,12 @@ struct LimitExcess {
 };
 LimitExcess limitExcess(const World& world, JointId joint);
 
+// Of pulleys, couplings and custom joints (source_links.cpp): what the head says of them but bodies, frames and terms,
+// and their RecordedFrame::residuals. Of joints of other types nothing.
+void describeLink(const World& world, JointId joint, RecordedJoint& out);
+std::vector<RecordedTerm> termsOf(const Coupling& coupling, std::span<const JointId> recorded);
+void addResiduals(const World& world, JointId joint, std::vector<float>& out);
+
 class RecordSource {
  public:
   explicit RecordSource(const Model& model);
@@ -33,6 +39,7 @@ class RecordSource {
  private:
   uint32_t slotOf(ShapeId id) const;
   void addJoints(const Model& model);
+  void addTerms(const World& world);
   void addJointStates(const World& world, RecordedFrame& frame) const;
   void addContacts(const World& world, size_t most, RecordedFrame& frame) const;
 

@@ -36,6 +36,10 @@ void describe(const DistanceJoint& joint, RecordedJoint& out) {
   out.freeAxes = kAll;
   out.limits[0] = {joint.min, joint.max};
 }
+void describe(const PulleyJoint& joint, RecordedJoint& out) {
+  out.freeAxes = kAll;
+  out.limits[0] = {joint.slack ? 0 : joint.length, joint.length};
+}
 
 /// The names that the model gives a joint's coordinates.
 std::string nameOf(const Model& model, JointId id) {
@@ -99,14 +103,38 @@ void RecordSource::addJoints(const Model& model) {
     head_.joints.push_back(std::move(recorded));
     joints_.push_back(id);
   };
+  // Joints of no frames.
+  const auto addBodies = [&](JointId id, std::span<const BodyId> bodies) {
+    std::array<uint32_t, 4> slots;
+    for (size_t i = 0; i < slots.size(); ++i) slots[i] = i < bodies.size() ? slotOf(bodies[i]) : kNotRecorded;
+    RecordedJoint recorded{slots[0], slots[1], {}, {}, world.type(id)};
+    recorded.name = nameOf(model, id);
+    recorded.moreBodies = {slots[2], slots[3]};
+    head_.joints.push_back(std::move(recorded));
+    joints_.push_back(id);
+  };
   for (const JointId id : world.joints()) {
-    if (world.type(id) == JointType::Ball) add(id, world.ballJoint(id));
-    if (world.type(id) == JointType::Fixed) add(id, world.fixedJoint(id));
-    if (world.type(id) == JointType::Hinge) add(id, world.hingeJoint(id));
-    if (world.type(id) == JointType::Slider) add(id, world.sliderJoint(id));
-    if (world.type(id) == JointType::D6) add(id, world.d6Joint(id));
-    if (world.type(id) == JointType::Distance) add(id, world.distanceJoint(id));
+    const JointType type = world.type(id);
+    if (type == JointType::TetVolume) continue;
+    if (type == JointType::Ball) add(id, world.ballJoint(id));
+    if (type == JointType::Fixed) add(id, world.fixedJoint(id));
+    if (type == JointType::Hinge) add(id, world.hingeJoint(id));
+    if (type == JointType::Slider) add(id, world.sliderJoint(id));
+    if (type == JointType::D6) add(id, world.d6Joint(id));
+    if (type == JointType::Distance) add(id, world.distanceJoint(id));
+    if (type == JointType::Pulley) add(id, world.pulleyJoint(id));
+    if (type == JointType::Coupling) addBodies(id, {});
+    if (type == JointType::Custom) addBodies(id, world.customJoint(id).bodies);
+    describeLink(world, id, head_.joints.back());
   }
+  addTerms(world);
+}
+
+// A coupling may stand before the joints that it names.
+void RecordSource::addTerms(const World& world) {
+  for (size_t i = 0; i < joints_.size(); ++i)
+    if (world.type(joints_[i]) == JointType::Coupling)
+      head_.joints[i].terms = termsOf(world.coupling(joints_[i]), joints_);
 }
 
 void RecordSource::addJointStates(const World& world, RecordedFrame& frame) const {
@@ -114,7 +142,11 @@ void RecordSource::addJointStates(const World& world, RecordedFrame& frame) cons
   for (const JointId id : joints_) {
     const bool enabled = world.isAlive(id) && world.isEnabled(id);
     frame.joints.push_back({enabled ? world.reaction(id) : JointReaction{}, enabled});
-    if (!enabled) continue;
+    if (!enabled) {
+      frame.residuals.resize(frame.residuals.size() + head_.joints[frame.joints.size() - 1].residuals);
+      continue;
+    }
+    addResiduals(world, id, frame.residuals);
     const LimitExcess excess = limitExcess(world, id);
     raise(frame.limitExcessMax, excess.length);
     raise(frame.limitExcessAngleMax, excess.angle);

@@ -96,6 +96,101 @@ TEST(RecordSource, EveryTypeSaysWhatItLeavesFree) {
   EXPECT_EQ(joints[4].coneZ, 1);
 }
 
+/// Holds body 0's height at constants[0], and its x at zero by a spring.
+class Rail final : public CustomFamily {
+ public:
+  std::string name() const override { return "rail"; }
+  int rowCount() const override { return 2; }
+  void evaluate(std::span<const CustomBody> now, std::span<const CustomBody>, float, std::span<const float> constants,
+                std::span<const float>, std::span<CustomRow> rows) const override {
+    rows[0].C = now[0].center.y - static_cast<double>(constants[0]);
+    rows[0].linear[0] = {0, 1, 0};
+    rows[1].C = now[0].center.x;
+    rows[1].linear[0] = {1, 0, 0};
+    rows[1].stiffness = 50;
+  }
+};
+
+TEST(RecordSource, PulleysHaveWheelsAndWhatTheirRopeMisses) {
+  Model model;
+  const BodyId a = addBall(model, "a", {-1, 0, 0}), b = addBall(model, "b", {1, 0, 0});
+  const JointId rope = model.world.create(PulleyJoint{
+      .bodyA = a, .bodyB = b, .frameA = {{0, 0.1, 0}, {}}, .wheelA = {-1, 3, 0}, .wheelB = {1, 2, 0}, .ratio = 2});
+  model.joints.push_back({"hoist", rope});
+  RecordSource source(model);
+  const RecordedJoint& joint = source.head().joints.at(0);
+  EXPECT_EQ(joint.type, JointType::Pulley);
+  EXPECT_EQ(joint.name, "hoist");
+  EXPECT_EQ(joint.frameA.position, (Vec3d{0, 0.1, 0}));
+  EXPECT_EQ(joint.wheels, (std::array<Vec3d, 2>{{{-1, 3, 0}, {1, 2, 0}}}));
+  EXPECT_EQ(joint.ratio, 2);
+  EXPECT_FLOAT_EQ(joint.limits[0].upper, 2.9f + 2 * 2);
+  EXPECT_EQ(joint.limits[0].lower, 0);
+  RecordedFrame frame = run(model, source, 30);
+  ASSERT_EQ(frame.residuals.size(), 1u);
+  EXPECT_NEAR(frame.residuals[0], 0, 1e-3);
+  EXPECT_GT(frame.joints[0].reaction.force.y, 5);
+  model.world.setPose(a, {{-1, -1, 0}, {}});
+  EXPECT_NEAR(source.frame(model, 1).residuals[0], model.world.gap(rope), 1e-6);
+  model.world.setPose(a, {{-1, 2, 0}, {}});
+  EXPECT_EQ(source.frame(model, 1).residuals[0], 0) << "a rope may be slack";
+}
+
+TEST(RecordSource, CouplingsNameTheirJointsWhereverTheyStand) {
+  Model model;
+  World& world = model.world;
+  const BodyId a = addBall(model, "a", {}), b = addBall(model, "b", {2, 0, 0});
+  const JointId first = world.create(HingeJoint{.bodyB = a}), second = world.create(SliderJoint{.bodyB = b});
+  // Takes a slot before the joint that it names.
+  world.destroy(first);
+  const JointId spare = world.create(HingeJoint{.bodyB = a, .frameA = {{9, 0, 0}, {}}});
+  const JointId third = world.create(HingeJoint{.bodyB = a, .frameA = {}, .frameB = {}});
+  world.destroy(spare);
+  Coupling rack{.terms = {{third, JointAxis::Twist, 2, 0.5f}, {second, JointAxis::LinearX, -1}}};
+  rack.rest = 0.25;
+  const JointId coupling = world.create(rack);
+  ASSERT_LT(coupling.index, third.index);
+  Coupling tendon = rack;
+  tendon.axis.motion = AxisMotion::Free;
+  tendon.axis.limit = {.lower = -1, .upper = -0.5f};
+  world.create(tendon);
+  RecordSource source(model);
+  const std::vector<RecordedJoint>& joints = source.head().joints;
+  ASSERT_EQ(joints.size(), 4u);
+  EXPECT_EQ(joints[0].type, JointType::Coupling);
+  EXPECT_EQ(joints[0].bodyA, kNotRecorded);
+  EXPECT_EQ(joints[0].terms, (std::vector<RecordedTerm>{{2, JointAxis::Twist, {2, 0.5f, 0, 0}},
+                                                        {1, JointAxis::LinearX, {-1, 0, 0, 0}}}));
+  EXPECT_EQ(joints[0].rest, 0.25);
+  EXPECT_EQ(joints[0].freeAxes, 0);
+  EXPECT_EQ(joints[3].freeAxes, 1);
+  EXPECT_EQ(joints[3].limits[0], (RecordedLimit{-1, -0.5f}));
+  const RecordedFrame frame = source.frame(model, 0);
+  ASSERT_EQ(frame.residuals.size(), 2u);
+  EXPECT_NEAR(frame.residuals[0], 2 * 0 - 2 - 0.25, 1e-6) << "the slider stands at 2";
+  EXPECT_NEAR(frame.residuals[1], -2 + 1, 1e-6);
+}
+
+TEST(RecordSource, CustomJointsHaveARowsResidualEach) {
+  Model model;
+  const BodyId a = addBall(model, "a", {0.5, 2, 0});
+  const JointId rail = model.world.create(
+      CustomJoint{.family = std::make_shared<Rail>(), .bodies = {a}, .bodyCount = 1, .constants = {2.5f}});
+  model.world.create(HingeJoint{.bodyB = addBall(model, "b", {9, 0, 0})});
+  RecordSource source(model);
+  const RecordedJoint& joint = source.head().joints.at(0);
+  EXPECT_EQ(joint.type, JointType::Custom);
+  EXPECT_EQ(joint.family, "rail");
+  EXPECT_EQ(joint.bodyA, 0u);
+  EXPECT_EQ(joint.bodyB, kNotRecorded);
+  EXPECT_EQ(joint.residuals, 2);
+  EXPECT_EQ(source.frame(model, 0).residuals, (std::vector<float>{-0.5f, 0.5f}));
+  model.world.setEnabled(rail, false);
+  EXPECT_EQ(source.frame(model, 0).residuals, (std::vector<float>{0, 0}));
+  model.world.destroy(rail);
+  EXPECT_EQ(source.frame(model, 0).residuals, (std::vector<float>{0, 0}));
+}
+
 TEST(RecordSource, ACoordinateBeyondItsLimitsIsMeasured) {
   Model model;
   const BodyId a = addBall(model, "a", {0.75, 0, 0});

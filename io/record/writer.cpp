@@ -34,6 +34,16 @@ void checkJoint(const RecordedJoint& joint, const std::string& name) {
     if (!(limit > 0)) refuse(name + "cone", std::to_string(limit), "must be > 0");
 }
 
+void checkTerms(const Recording& r, const RecordedJoint& joint, const std::string& name) {
+  for (const RecordedTerm& term : joint.terms) {
+    if (term.joint != kNotRecorded && term.joint >= r.joints.size())
+      refuse(name + "terms[].joint", std::to_string(term.joint),
+             "must be below the number of joints, " + std::to_string(r.joints.size()));
+    if (term.axis > JointAxis::SwingZ)
+      refuse(name + "terms[].axis", std::to_string(static_cast<int>(term.axis)), "must be one of JointAxis");
+  }
+}
+
 void checkHead(const Recording& r) {
   checkReport(r.report);
   const float up = length(r.up);
@@ -43,10 +53,15 @@ void checkHead(const Recording& r) {
     if (r.shapes[i].body >= r.bodies.size())
       refuse("shapes[" + std::to_string(i) + "].body", std::to_string(r.shapes[i].body), range);
   for (size_t i = 0; i < r.joints.size(); ++i)
-    for (const uint32_t body : {r.joints[i].bodyA, r.joints[i].bodyB})
+    for (const uint32_t body :
+         {r.joints[i].bodyA, r.joints[i].bodyB, r.joints[i].moreBodies[0], r.joints[i].moreBodies[1]})
       if (body != kNotRecorded && body >= r.bodies.size())
         refuse("joints[" + std::to_string(i) + "].body", std::to_string(body), range);
-  for (size_t i = 0; i < r.joints.size(); ++i) checkJoint(r.joints[i], "joints[" + std::to_string(i) + "].");
+  for (size_t i = 0; i < r.joints.size(); ++i) {
+    const std::string name = "joints[" + std::to_string(i) + "].";
+    checkJoint(r.joints[i], name);
+    checkTerms(r, r.joints[i], name);
+  }
 }
 
 Recording withoutFrames(const Recording& r) {
@@ -156,6 +171,10 @@ void RecordWriter::check(const RecordedFrame& f) const {
   if (!f.joints.empty() && f.joints.size() != head_.joints.size())
     refuse(name + "joints", std::to_string(f.joints.size()),
            "must be as many as the joints, " + std::to_string(head_.joints.size()));
+  if (!f.residuals.empty() && (f.joints.empty() || f.residuals.size() != residualCount(head_)))
+    refuse(
+        name + "residuals", std::to_string(f.residuals.size()),
+        "must be as many as the joints have, " + std::to_string(residualCount(head_)) + ", where frames have joints");
   const auto checkShapes = [&](const char* list, const auto& items) {
     for (const auto& item : items)
       for (const uint32_t shape : {item.shapeA, item.shapeB})
@@ -180,7 +199,8 @@ void RecordWriter::add(const RecordedFrame& f) {
   check(f);
   if (block_.size() > 0 &&
       (block_.hasVelocities != !f.velocities.empty() || block_.joints != f.joints.size() ||
-       block_.bytes() + FrameBlock::bytesOf(f) > kChunkMost || block_.eventKind.size() + f.events.size() > kEventsMost))
+       block_.residualsEach != f.residuals.size() || block_.bytes() + FrameBlock::bytesOf(f) > kChunkMost ||
+       block_.eventKind.size() + f.events.size() > kEventsMost))
     flush();
   if (block_.size() == 0) block_.first = next_;
   block_.add(f, head_);

@@ -1,4 +1,5 @@
 // The page around the picture: title, toolbar, transport, panel. It holds no state of the run, only elements.
+import {CouplingTable} from './couplings.js';
 import {hasCone, hasFrames, hasLimits, limits} from './joints.js';
 import {Plot} from './plots.js';
 
@@ -160,8 +161,11 @@ export class Interface {
     this.selection = make('div', {class: 'selection'});
     this.report = section('Report', make('table', {}, make('tbody')));
     this.showReport();
+    this.couplings = new CouplingTable(make, this.recording);
     this.panel = make('aside', {class: 'panel', 'aria-label': 'Figures'}, section('Body', this.selection),
-                      section('Figures', ...this.makePlots()), this.report, this.makeQuality());
+                      section('Figures', ...this.makePlots()),
+                      this.couplings.count > 0 && section('Couplings and what they miss', this.couplings.element),
+                      this.report, this.makeQuality());
     return this.panel;
   }
 

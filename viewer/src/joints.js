@@ -5,6 +5,7 @@ import {Segments} from './segments.js';
 
 const kTypes = ['ball', 'fixed', 'volume', 'hinge', 'slider', 'd6', 'distance', 'pulley', 'coupling', 'custom'];
 const kOriented = ['fixed', 'hinge', 'slider', 'd6'];  // of the others only the points matter
+const kMeasured = ['distance', 'pulley', 'coupling'];  // whose limits are no stops of a coordinate of two frames
 const kAxisColors = [0xff4d4d, 0x4fd66a, 0x5b8cff];
 const kArcStep = Math.PI / 24;
 const [kTwist, kSwingY, kSwingZ] = [3, 4, 5];
@@ -27,7 +28,7 @@ export function hasLimits(recording) {
 
 /// Joints with a limit on some of these coordinates.
 export function limits(joint, axes) {
-  return typeOf(joint) !== 'distance' &&
+  return !kMeasured.includes(typeOf(joint)) &&
       axes.some((i) => (joint.free >> i) & 1 && (Number.isFinite(joint.limits[2 * i]) || Number.isFinite(joint.limits[2 * i + 1])));
 }
 
@@ -154,7 +155,7 @@ export class JointMarks {
         add(lists.limits, lines.outline, this.poseA);
         add(lists.pointers, lines.pointer, this.poseB);
       }
-      if (shown.reactions) this.arrow(lists.forces, reactions.forces.subarray(3 * i, 3 * i + 3));
+      if (shown.reactions && typeOf(joint) !== 'coupling') this.arrow(lists.forces, reactions.forces.subarray(3 * i, 3 * i + 3));
     });
     this.axes.forEach((segments, axis) => fill(segments, lists.axes[axis]));
     for (const name of ['limits', 'pointers', 'forces']) fill(this[name], lists[name]);

@@ -14,10 +14,10 @@ function joined(Type, a, first, b) {
 }
 
 /// A joint that is not enabled has a force that is no number.
-function reactionsOf(forces) {
+function reactionsOf(forces, residuals) {
   if (forces.length === 0) return kNoReactions;
   const off = Array.from({length: forces.length / 3}, (_, i) => Number.isNaN(forces[3 * i]));
-  return {forces: forces.map((value) => (Number.isNaN(value) ? 0 : value)), off: (i) => off[i]};
+  return {forces: forces.map((value) => (Number.isNaN(value) ? 0 : value)), off: (i) => off[i], residuals};
 }
 
 export class LiveRecording extends Recording {
@@ -53,8 +53,8 @@ export class LiveRecording extends Recording {
   }
 
   takeFrame(buffer) {
-    const [, frame, bodies, contacts, joints] = new Uint32Array(buffer, 0, 5);
-    let at = 20;
+    const [, frame, bodies, contacts, joints, residuals] = new Uint32Array(buffer, 0, 6);
+    let at = 24;
     const part = (count) => {
       const list = new Float32Array(buffer, at, count);
       at += list.byteLength;
@@ -62,7 +62,8 @@ export class LiveRecording extends Recording {
     };
     const poses = part(7 * bodies), positions = part(3 * contacts), forces = part(3 * contacts);
     this.asked.delete(frame);
-    this.frames.set(frame, {poses, positions, forces, reactions: reactionsOf(part(3 * joints))});
+    const pushed = part(3 * joints);
+    this.frames.set(frame, {poses, positions, forces, reactions: reactionsOf(pushed, part(residuals))});
     const most = Math.max(2 * kAhead, Math.floor(kKept / Math.max(1, buffer.byteLength)));
     for (const old of this.frames.keys()) {
       if (this.frames.size <= most) break;

@@ -112,6 +112,10 @@ class Viewer {
     this.marks.update(motion);
     if (this.selected >= 0) this.updateSelection();
     this.interface.showTime(this.player.time, motion.frame);
+    if (this.interface.couplings.count > 0) {
+      const {residuals, off} = recording.reactions(motion.frame);
+      this.interface.couplings.show(residuals, off);
+    }
     const frame = motion.frame, kept = recording.contactsKept[frame], all = recording.contactsAll[frame];
     const some = kept < all ? `the strongest ${kept} of ${all}` : `${all}`;
     const parts = [];
@@ -205,6 +209,11 @@ function publish(viewer) {
       const {joints} = viewer.marks, count = (segments) => segments.object.geometry.instanceCount;
       return {axes: joints.axes.reduce((sum, segments) => sum + count(segments), 0), limits: count(joints.limits),
               pointers: count(joints.pointers), forces: count(joints.forces)};
+    },
+    /// Lines of ropes, dots of their wheels, lines between what is coupled.
+    couplingLines: () => {
+      const {ropes, wheels, lines} = viewer.marks.couplings, count = (segments) => segments.object.geometry.instanceCount;
+      return {ropes: count(ropes), wheels: wheels.object.geometry.drawRange.count, lines: count(lines)};
     },
     plots: () => viewer.interface.plots.map(({name, high}) => ({name, high})),
     meshes: () => viewer.bodies.sets.map(({mesh, bodies}) => ({

@@ -1,5 +1,6 @@
 // Contact points, force lines, joints and the selected body's path.
 import * as THREE from 'three';
+import {CouplingMarks, isBodiless, isCoupling} from './couplings.js';
 import {placed} from './motion.js';
 import {isLoose, JointMarks} from './joints.js';
 import {kNoReactions, kWorld} from './recording.js';
@@ -34,7 +35,9 @@ export class Marks {
     this.anchors = new Dots(0x27c4e8, 9, 12);
     this.path = new Segments(0xff7a1a, 2, 8);
     this.joints = new JointMarks(recording, radius, radii);
-    this.all = [this.contacts, this.forces, this.arms, this.gaps, this.anchors, this.path, ...this.joints.all];
+    this.couplings = new CouplingMarks(recording);
+    this.all = [this.contacts, this.forces, this.arms, this.gaps, this.anchors, this.path, ...this.joints.all,
+                ...this.couplings.all];
     this.group = new THREE.Group();
     for (const mark of this.all) this.group.add(mark.object);
     this.frame = -1;
@@ -58,6 +61,7 @@ export class Marks {
     const state = frames || limits || reactions || joints ? this.recording.reactions(motion.frame) : kNoReactions;
     this.updateJoints(motion.now, state);
     this.joints.update(this.shown, motion.now, state);
+    this.couplings.update(joints, motion.now, state.off);
   }
 
   updateContacts(frame) {
@@ -82,7 +86,8 @@ export class Marks {
 
   /// Those that are enabled: an arm from each body's origin, and what lies between the two anchors.
   updateJoints(poses, reactions) {
-    const joints = this.shown.joints ? this.recording.joints.filter((_, i) => !reactions.off(i)) : [];
+    const anchored = (joint, i) => !reactions.off(i) && !isBodiless(joint);
+    const joints = this.shown.joints ? this.recording.joints.filter(anchored) : [];
     const arms = [], gaps = [], anchors = [], at = [[0, 0, 0], [0, 0, 0]];
     for (const joint of joints) {
       const ends = [joint.a, joint.b].map(
@@ -90,8 +95,9 @@ export class Marks {
       [joint.a, joint.b].forEach(({body}, side) => {
         if (body !== kWorld) arms.push(...ends[side], ...poses.subarray(7 * body, 7 * body + 3));
       });
-      (isLoose(joint) ? arms : gaps).push(...ends[0], ...ends[1]);
-      anchors.push(...ends[0], ...ends[1]);
+      if (!isCoupling(joint)) (isLoose(joint) ? arms : gaps).push(...ends[0], ...ends[1]);
+      // A body that a custom joint does not have is no place.
+      anchors.push(...ends.filter((_, side) => !isCoupling(joint) || [joint.a, joint.b][side].body !== kWorld).flat());
     }
     this.arms.set(Float32Array.from(arms), arms.length / 6);
     this.gaps.set(Float32Array.from(gaps), gaps.length / 6);

@@ -5,6 +5,7 @@ import * as THREE from 'three';
 const kPoseBytes = 15;
 const kContactBytes = 13;
 const kJointBytes = 4;
+const kResidualBytes = 4;
 const kJointOff = 65535;
 /// One number for each frame, in the order in which they are sent.
 export const kFigures = ['energy', 'penetration', 'gap', 'excess', 'excessAngle'];
@@ -49,7 +50,7 @@ function unpackForce(bytes, p, out, at) {
 }
 
 /// Where no frame says what joints did.
-export const kNoReactions = {forces: new Float32Array(0), off: () => false};
+export const kNoReactions = {forces: new Float32Array(0), off: () => false, residuals: new Float32Array(0)};
 
 export class Recording {
   constructor(head) {
@@ -119,7 +120,26 @@ export class Recording {
                                      cone: Array.from(cones.subarray(2 * i, 2 * i + 2))}));
   }
 
+  /// What only pulleys, couplings and custom joints have.
+  readCouplings(head) {
+    if (!head.jointWheels) return [];
+    const wheels = numbers(Float64Array, head.jointWheels), ratios = numbers(Float32Array, head.jointRatios);
+    const rests = numbers(Float64Array, head.jointRests), more = numbers(Uint32Array, head.jointMoreBodies);
+    const wheel = (at) => Array.from(wheels.subarray(at, at + 3), (value, k) => value - this.origin[k]);
+    return head.jointTerms.map((text, i) => {
+      const flat = numbers(Float64Array, text), terms = [];
+      for (let at = 0; at < flat.length; at += 6) {
+        terms.push({joint: flat[at], axis: flat[at + 1], factors: Array.from(flat.subarray(at + 2, at + 6))});
+      }
+      return {terms, wheels: [wheel(6 * i), wheel(6 * i + 3)], ratio: ratios[i], rest: rests[i],
+              more: Array.from(more.subarray(2 * i, 2 * i + 2)), family: head.jointFamilies[i]};
+    });
+  }
+
   readJoints(head) {
+    const couplings = this.readCouplings(head);
+    const residuals = head.jointResiduals ? numbers(Uint8Array, head.jointResiduals) : [];
+    this.residualCount = 0;
     const forms = this.readJointForms(head);
     const bodies = numbers(Uint32Array, head.jointBodies);
     const anchors = numbers(Float64Array, head.jointAnchors);
@@ -134,7 +154,9 @@ export class Recording {
         if (!(turn.lengthSq() > 1e-6) || !Number.isFinite(turn.lengthSq())) turn.identity();
         return {body, turn: turn.normalize(), anchor: body === kWorld ? anchor.map((value, k) => value - this.origin[k]) : anchor};
       });
-      joints.push({a: ends[0], b: ends[1], name: '', free: 0, limits: [], cone: [], ...forms[i]});
+      joints.push({a: ends[0], b: ends[1], name: '', free: 0, limits: [], cone: [], ...forms[i], ...couplings[i],
+                   residuals: residuals[i] ?? 0, firstResidual: this.residualCount});
+      this.residualCount += residuals[i] ?? 0;
     }
     return joints;
   }
@@ -155,7 +177,8 @@ export class Recording {
 
   /// Of a frame's bytes.
   contactsFrom() {
-    return kPoseBytes * this.moving.length + (this.jointStates ? kJointBytes * this.joints.length : 0);
+    const jointBytes = kJointBytes * this.joints.length + kResidualBytes * this.residualCount;
+    return kPoseBytes * this.moving.length + (this.jointStates ? jointBytes : 0);
   }
 
   /// Whether poses and contacts of a frame are here.
@@ -218,14 +241,16 @@ export class Recording {
     return {positions, forces};
   }
 
-  /// What joints did at a frame: forces on their B, 3 numbers each, and which are not enabled.
+  /// What joints did at a frame: forces on their B, 3 numbers each, which are not enabled, and the residuals of all.
   reactions(frame) {
     if (!this.jointStates) return kNoReactions;
     const {bytes, offset} = this.places[frame];
     const forces = new Float32Array(3 * this.joints.length), from = offset + kPoseBytes * this.moving.length;
     this.joints.forEach((_, i) => unpackForce(bytes, from + kJointBytes * i, forces, 3 * i));
     const off = (i) => bytes[from + kJointBytes * i + 2] === 255 && bytes[from + kJointBytes * i + 3] === 255;
-    return {forces, off};
+    const view = new DataView(bytes.buffer, bytes.byteOffset + from + kJointBytes * this.joints.length);
+    const residuals = Float32Array.from({length: this.residualCount}, (_, i) => view.getFloat32(kResidualBytes * i, true));
+    return {forces, off, residuals};
   }
 
   /// The last frame at or before a time, and how far towards the next one it is.
