@@ -14,6 +14,17 @@ void checkCount(const Path& path, std::span<const double> values, size_t count) 
 
 }  // namespace
 
+void checkLinks(const Path& call, const World& world, const Articulation& tree) {
+  const Path path = call / "links";
+  for (size_t i = 0; i < tree.links().size(); ++i) {
+    const ArticulationLink& link = tree.links()[i];
+    const Path at = path[i];
+    if (!world.isAlive(link.body)) (at / "body").refuse(toText(link.body), "must be a living body of this world");
+    if (link.joint && !world.isAlive(link.joint))
+      (at / "joint").refuse(toText(link.joint), "must be a living joint of this world");
+  }
+}
+
 void checkNumbers(const Path& path, std::span<const double> values, const Articulation& tree, Kind kind, float unit) {
   const bool positions = kind == Kind::Positions;
   const size_t count = positions ? tree.positionCount() : tree.dofCount(), first = tree.dofCount() - count;
@@ -22,7 +33,8 @@ void checkNumbers(const Path& path, std::span<const double> values, const Articu
                           positions ? kMostTurns : kMaxSpin};
   for (size_t i = 0; i < count; ++i) {
     const bool angular = tree.dofs()[first + i].axis >= JointAxis::Twist;
-    check(path[i], values[i], symmetric(most[angular]));
+    // As the world is given them.
+    check(path[i], static_cast<float>(values[i]), symmetric(most[angular]));
   }
 }
 

@@ -10,6 +10,9 @@
 
 namespace avbd::articulation {
 
+/// Bodies and joints that the view names must live.
+void checkLinks(const Path& call, const World& world, const Articulation& tree);
+
 enum class Kind { Positions, Velocities };
 
 /// Numbers of one kind, in the ranges of World::setDrive.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "world/check.h"
+#include "api/articulation_check.h"
 
 namespace avbd {
 namespace {
@@ -17,13 +17,9 @@ BodyPair sorted(BodyPair pair) { return {std::min(pair[0], pair[1]), std::max(pa
 
 /// Ascending.
 std::vector<BodyId> livingLinks(const World& world, const Articulation& tree, const Path& call) {
+  articulation::checkLinks(call, world, tree);
   std::vector<BodyId> ids;
-  const Path path = call / "links";
-  for (size_t i = 0; i < tree.links().size(); ++i) {
-    const BodyId body = tree.links()[i].body;
-    if (!world.isAlive(body)) path[i].refuse(toText(body), "must be a living body of this world");
-    ids.push_back(body);
-  }
+  for (const ArticulationLink& link : tree.links()) ids.push_back(link.body);
   std::sort(ids.begin(), ids.end());
   return ids;
 }

@@ -121,7 +121,8 @@ TEST_F(SelfCollisions, TheDestroyedAreForgotten) {
   c = box({0, 2, 0});
   ASSERT_EQ(c.index, slot);
   expectStops();
-  expectRefused({}, "Articulation::setSelfCollision.links[2] = 3 (generation 1): must be a living body of this world");
+  expectRefused({},
+                "Articulation::setSelfCollision.links[2].body = 3 (generation 1): must be a living body of this world");
   EXPECT_THROW((void)tree.excludedPairs(world), Error);
 }
 

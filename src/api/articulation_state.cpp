@@ -2,6 +2,8 @@
 #include <avbd/articulation.h>
 #include <avbd/world.h>
 
+#include <optional>
+
 #include "api/articulation_check.h"
 #include "api/articulation_joint.h"
 #include "api/articulation_placed.h"
@@ -80,12 +82,22 @@ namespace {
 
 Vec3d threeOf(std::span<const double> values) { return {values[0], values[1], values[2]}; }
 
+bool isBall(const World& world, const ArticulationLink& link) {
+  return link.joint && world.type(link.joint) == JointType::Ball;
+}
+
+/// Of a ball, along A's axes: what it is in the world.
+Vec3 torqueOnB(const World& world, const JointModel& joint, Vec3d effort) {
+  const BodyId a = joint.ends.a;
+  const Quatd body = a ? toDouble(world.pose(a)).rotation : Quatd{};
+  return avbd::toFloat(rotate(body * joint.frameA.rotation, effort));
+}
+
 /// Of a ball: on both its bodies.
 void addTorques(World& world, JointId id, Vec3d onB) {
   const JointModel joint = readJoint(world, id);
   const BodyId a = joint.ends.a, b = joint.ends.b;
-  const Quatd body = a ? toDouble(world.pose(a)).rotation : Quatd{};
-  const Vec3 torque = avbd::toFloat(rotate(body * joint.frameA.rotation, onB));
+  const Vec3 torque = torqueOnB(world, joint, onB);
   if (b && world.type(b) == BodyType::Dynamic) world.addTorque(b, torque);
   if (a && world.type(a) == BodyType::Dynamic) world.addTorque(a, -torque);
 }
@@ -93,14 +105,23 @@ void addTorques(World& world, JointId id, Vec3d onB) {
 }  // namespace
 
 void Articulation::addEfforts(World& world, std::span<const double> efforts) const {
-  checkForces(Path("Articulation::addEfforts") / "efforts", efforts, dofCount());
+  const Path call("Articulation::addEfforts"), path = call / "efforts";
+  checkForces(path, efforts, dofCount());
+  checkLinks(call, world, *this);
+  const auto ownOf = [&](const ArticulationLink& link) {
+    return efforts.subspan(static_cast<size_t>(link.firstDof), static_cast<size_t>(link.dofCount));
+  };
+  for (const ArticulationLink& link : links_)
+    if (isBall(world, link))
+      check(path[static_cast<size_t>(link.firstDof)],
+            torqueOnB(world, readJoint(world, link.joint), threeOf(ownOf(link))), symmetric(kMaxForce));
   for (const ArticulationLink& link : links_) {
     if (link.dofCount == 0) continue;
-    const auto own = efforts.subspan(static_cast<size_t>(link.firstDof), static_cast<size_t>(link.dofCount));
+    const auto own = ownOf(link);
     if (!link.joint) {
       world.addForce(link.body, avbd::toFloat(threeOf(own)));
       world.addTorque(link.body, avbd::toFloat(threeOf(own.subspan(3))));
-    } else if (world.type(link.joint) == JointType::Ball) {
+    } else if (isBall(world, link)) {
       addTorques(world, link.joint, threeOf(own));
     } else {
       for (size_t i = 0; i < own.size(); ++i) {
@@ -129,23 +150,23 @@ struct Target {
   std::span<const double> positions, velocities;  ///< velocities may be none
 };
 
-/// True where a D6 joint turns by its slerp drive.
-bool setSlerpTarget(World& world, JointId id, const Target& to) {
-  if (world.type(id) != JointType::D6) return false;
+/// Where a D6 joint turns by its slerp drive.
+std::optional<SlerpDrive> slerpTarget(const World& world, JointId id, const Target& to) {
+  if (world.type(id) != JointType::D6) return {};
   SlerpDrive slerp = world.d6Joint(id).slerp;
-  if (!(slerp.stiffness > 0 || slerp.damping > 0)) return false;
+  if (!(slerp.stiffness > 0 || slerp.damping > 0)) return {};
   const JointModel joint = readJoint(world, id);
   slerp.rotation = articulation::toFloat(relativePose(joint, to.positions)).rotation;
   if (!to.velocities.empty())
     slerp.velocity = avbd::toFloat(subspace(joint, to.positions, to.velocities).velocity.angular);
-  world.setSlerp(id, slerp);
-  return true;
+  return slerp;
 }
 
 void setTarget(World& world, JointId id, std::span<const ArticulationDof> dofs, const Target& to) {
-  const bool slerps = setSlerpTarget(world, id, to);
+  const std::optional<SlerpDrive> slerp = slerpTarget(world, id, to);
+  if (slerp) world.setSlerp(id, *slerp);
   for (size_t i = 0; i < dofs.size(); ++i) {
-    if (slerps && dofs[i].axis >= JointAxis::Twist) continue;
+    if (slerp && dofs[i].axis >= JointAxis::Twist) continue;
     JointDrive drive = driveOf(world, id, dofs[i].axis);
     drive.position = static_cast<float>(to.positions[i]);
     if (!to.velocities.empty()) drive.velocity = static_cast<float>(to.velocities[i]);
@@ -161,13 +182,24 @@ void Articulation::setDriveTargets(World& world, std::span<const double> positio
   const float unit = world.definition().lengthUnit;
   checkNumbers(path / "positions", positions, *this, Kind::Positions, unit);
   if (!velocities.empty()) checkNumbers(path / "velocities", velocities, *this, Kind::Velocities, unit);
-  for (const ArticulationLink& link : links_) {
-    if (!link.joint || link.dofCount == 0 || world.type(link.joint) == JointType::Ball) continue;
+  checkLinks(path, world, *this);
+  const auto targetOf = [&](const ArticulationLink& link) {
     const size_t first = static_cast<size_t>(link.firstDof), count = static_cast<size_t>(link.dofCount);
     Target to{positions.subspan(first - (floating_ ? 6 : 0), count), {}};
     if (!velocities.empty()) to.velocities = velocities.subspan(first, count);
-    setTarget(world, link.joint, std::span(dofs_).subspan(first, count), to);
-  }
+    return to;
+  };
+  const auto isDriven = [&](const ArticulationLink& link) {
+    return link.joint && link.dofCount > 0 && !isBall(world, link);
+  };
+  for (const ArticulationLink& link : links_)
+    if (const auto slerp = isDriven(link) ? slerpTarget(world, link.joint, targetOf(link)) : std::nullopt)
+      checkSlerpDrive(path / "slerp", *slerp);
+  for (const ArticulationLink& link : links_)
+    if (isDriven(link)) {
+      const size_t first = static_cast<size_t>(link.firstDof), count = static_cast<size_t>(link.dofCount);
+      setTarget(world, link.joint, std::span(dofs_).subspan(first, count), targetOf(link));
+    }
 }
 
 }  // namespace avbd

@@ -301,6 +301,28 @@ TEST(Articulation, DeadJointsAreRefused) {
   EXPECT_THROW((void)tree.positions(made.world), Error);
   EXPECT_THROW((void)tree.dynamics(made.world), Error);
   EXPECT_THROW(tree.setPositions(made.world, std::vector<double>(tree.positionCount())), Error);
+  // Nothing of it: not for the links before the dead one either.
+  const uint64_t hash = made.world.hash();
+  expectRefused("must be a living joint of this world",
+                [&] { tree.addEfforts(made.world, std::vector<double>(tree.dofCount(), 1)); });
+  expectRefused("must be a living joint of this world",
+                [&] { tree.setDriveTargets(made.world, std::vector<double>(tree.positionCount(), 1)); });
+  EXPECT_EQ(made.world.hash(), hash);
+  EXPECT_EQ(made.world.hingeJoint(made.joints.front()).drive.position, 0);
+}
+
+TEST(Articulation, EffortsOfABallArePushedOnlyIfTheWorldTakesThem) {
+  World world;
+  const BodyId a = ball(world), b = ball(world), c = ball(world);
+  const Pose turned{{}, {std::cos(0.4f), 0, 0, std::sin(0.4f)}};
+  const std::vector<JointId> joints{hinge(world, a, b),
+                                    world.create(BallJoint{.bodyA = b, .bodyB = c, .frameA = turned})};
+  const Articulation tree(world, joints);
+  std::vector<double> efforts(tree.dofCount(), 1);
+  const uint64_t hash = world.hash();
+  efforts[efforts.size() - 1] = efforts[efforts.size() - 2] = efforts[efforts.size() - 3] = 1e18;
+  expectRefused("Articulation::addEfforts.efforts[7] = (", [&] { tree.addEfforts(world, efforts); });
+  EXPECT_EQ(world.hash(), hash);
 }
 
 }  // namespace
