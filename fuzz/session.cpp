@@ -83,6 +83,9 @@ void Session::act() {
       return setHook();
     case 21:
       return moveWorld();
+    case 22:
+    case 23:
+      return articulate();
     default:
       return step();
   }

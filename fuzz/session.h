@@ -48,6 +48,8 @@ class Session {
   void chain(int count);
   void hills(int count);
   void machine(int count);
+  void arm(int count);
+  void addTreeJoint(int kind, std::array<BodyId, 2> ends, const std::array<Pose, 2>& frames);
 
   // session_make.cpp
   void make();
@@ -74,6 +76,15 @@ class Session {
   void bodyGone(BodyId id);
   void moveWorld();
   void setHook();
+
+  // session_articulation.cpp
+  void articulate();
+  void changeTree(uint32_t what);
+  void changeSelfCollision();
+  void askTree(bool elsewhere);
+  void checkDynamics(const ArticulationDynamics& dynamics);
+  std::vector<double> numbers(size_t count);
+  JointId anyJoint();
 
   // session_ask.cpp
   void read();
@@ -107,6 +118,7 @@ class Session {
   std::set<ShapeId> silent_;  // without contactEvents
   std::set<Pair> touching_, visiting_;
   std::optional<Mover> mover_;
+  std::optional<Articulation> tree_;
 };
 
 }  // namespace avbd::fuzz

@@ -7,9 +7,9 @@
 namespace avbd::fuzz {
 
 void Session::change() {
-  const uint32_t what = in_.below(13);
+  const uint32_t what = in_.below(14);
   attempt([&] {
-    if (what > 9) return changeJoint();
+    if (what > 9 && what < 13) return changeJoint();
     switch (what) {
       case 0:
         return changeShape(anyShape());
@@ -21,6 +21,8 @@ void Session::change() {
         return world_.setIterations(static_cast<int>(in_.below(7)));
       case 4:
         return world_.setSubsteps(static_cast<int>(in_.below(5)));
+      case 13:
+        return world_.allowCollision(anyBody(), anyBody());
       default:
         return changeBody(anyBody());
     }

@@ -15,7 +15,8 @@ void Session::begin(uint32_t scene, int count) {
   // The scenes are in metres; another length unit begins with nothing.
   if (world_.definition().lengthUnit != 1) return;
   if (scene == 1 || scene == 5) pile(count);
-  if (scene == 2 || scene == 6) chain(count);
+  if (scene == 2) chain(count);
+  if (scene == 6) arm(count);
   if (scene == 3) hills(count);
   if (scene == 4 || scene == 7) machine(count);
 }
@@ -53,6 +54,49 @@ void Session::chain(int count) {
     last = bodies_.back();
   }
   add({.type = BodyType::Static, .position = {3, 2, 0}, .shape = Cylinder{0.5f, 3, 0}});
+}
+
+/// A tree of all joints that an articulation may have, on a pedestal or floating, over a plane.
+void Session::arm(int count) {
+  add({.type = BodyType::Static, .shape = HalfSpace{}});
+  const bool floating = count % 2 == 1;
+  BodyId parent{};
+  for (int i = 0; i <= count; ++i) {
+    const Vec3d at{0.7 * i, 2 + 0.3 * (i % 3), 0.4 * (i % 2)};
+    add({.position = at, .shape = i % 3 == 1 ? Geometry{Capsule{0.12f, 0.3f}} : Geometry{Box{0.3f, 0.15f, 0.2f}}});
+    const BodyId child = bodies_.back();
+    // The frames lie half way; every fourth link goes on from the first.
+    const Vec3d from = parent ? world_.pose(parent).position : Vec3d{},
+                half = (world_.pose(child).position - from) * 0.5;
+    const Pose frameA{parent ? half : offset_ + at, {}}, frameB{parent ? half * -1.0 : Vec3d{}, {}};
+    if (parent || !floating) addTreeJoint(i, {parent, child}, {frameA, frameB});
+    parent = i % 4 == 3 ? bodies_[1] : child;
+  }
+}
+
+void Session::addTreeJoint(int kind, std::array<BodyId, 2> ends, const std::array<Pose, 2>& frames) {
+  using enum JointAxis;
+  const auto [a, b] = ends;
+  const auto& [frameA, frameB] = frames;
+  D6Joint d6{.bodyA = a, .bodyB = b, .frameA = frameA, .frameB = frameB};
+  for (const JointAxis axis : {LinearX, Twist, SwingY, SwingZ})
+    if (kind & 1 || axis != LinearX) d6.axes[static_cast<size_t>(axis)].motion = AxisMotion::Free;
+  const JointDrive drive{.stiffness = 50, .damping = 5};
+  switch (kind % 6) {
+    case 0:
+    case 1:
+      return joints_.push_back(world_.create(HingeJoint{
+          .bodyA = a, .bodyB = b, .frameA = frameA, .frameB = frameB, .drive = drive, .collideConnected = kind == 1}));
+    case 2:
+      return joints_.push_back(world_.create(SliderJoint{
+          .bodyA = b, .bodyB = a, .frameA = frameB, .frameB = frameA, .limit = {.lower = -0.5f, .upper = 0.5f}}));
+    case 3:
+      return joints_.push_back(world_.create(BallJoint{a, b, frameA, frameB}));
+    case 4:
+      return joints_.push_back(world_.create(d6));
+    default:
+      return joints_.push_back(world_.create(FixedJoint{a, b, frameA, frameB}));
+  }
 }
 
 /// A mesh and a height field with something on each.
