@@ -67,7 +67,7 @@ void Session::changeJoint() {
 }
 
 void Session::changeBody(BodyId body) {
-  switch (in_.below(8)) {
+  switch (in_.below(9)) {
     case 0:
     case 1:
       return world_.setPose(body, placePose());
@@ -84,6 +84,8 @@ void Session::changeBody(BodyId body) {
       return world_.setLocks(body, in_.byte());
     case 6:
       return world_.setGravityScale(body, in_.number());
+    case 7:
+      return world_.setIterations(body, in_.byte() / 8);
     default: {
       const float linear = in_.number();
       return world_.setMaxSpeeds(body, linear, in_.number());

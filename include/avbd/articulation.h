@@ -169,6 +169,8 @@ class Articulation {
   /// other bodies, also those of the base, are as they were. The world keeps it: copies of this view need not set it
   /// again. Throws Error for pairs of bodies that are dead, no links, or the same.
   void setSelfCollision(World& world, const SelfCollision& rule) const;
+  /// Outer iterations for all that touches or is jointed to the links, as BodyDef::iterations of each; 0: the world's.
+  void setIterations(World& world, int iterations) const;
   /// Pairs of links that never touch, whatever excludes them: as World::excludedPairs. Filters are not looked at.
   std::vector<std::array<BodyId, 2>> excludedPairs(const World& world) const;
 

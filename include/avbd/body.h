@@ -56,6 +56,9 @@ struct BodyDef {
   uint8_t locks = kLockNone;
   float maxLinearSpeed = 1e4f;   ///< [m/s] > 0; faster velocities are scaled down at the end of the step
   float maxAngularSpeed = 1e3f;  ///< [rad/s] > 0
+  /// Outer iterations, 0 .. 1000; 0: the world's. All that touch or are jointed take the most of what their bodies ask
+  /// for.
+  int iterations = 0;
   uint64_t userData = 0;
 };
 

@@ -129,9 +129,11 @@ class World {
   void setGravityScale(BodyId id, float scale);
   void setLocks(BodyId id, uint8_t locks);
   void setMaxSpeeds(BodyId id, float linear, float angular);
-  float linearDamping(BodyId id) const;   ///< [1/s]
-  float angularDamping(BodyId id) const;  ///< [1/s]
+  void setIterations(BodyId id, int iterations);  ///< as BodyDef::iterations
+  float linearDamping(BodyId id) const;           ///< [1/s]
+  float angularDamping(BodyId id) const;          ///< [1/s]
   float gravityScale(BodyId id) const;
+  int iterations(BodyId id) const;         ///< as BodyDef::iterations
   uint8_t locks(BodyId id) const;          ///< of Locks
   float maxLinearSpeed(BodyId id) const;   ///< [m/s]
   float maxAngularSpeed(BodyId id) const;  ///< [rad/s]

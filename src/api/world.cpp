@@ -42,7 +42,7 @@ void World::setGravity(Vec3 gravity) {
 }
 
 void World::setIterations(int iterations) {
-  check(Path("World::setIterations") / "iterations", iterations, Range{1, 1000});
+  check(Path("World::setIterations") / "iterations", iterations, Range{1, kMaxIterations});
   impl_->data.def.iterations = iterations;
 }
 

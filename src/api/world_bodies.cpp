@@ -179,6 +179,12 @@ void World::setLocks(BodyId id, uint8_t locks) {
   stopLockedAxes(body);
 }
 
+void World::setIterations(BodyId id, int iterations) {
+  BodyData& body = bodyOf(impl_->data, id, "World::setIterations");
+  check(Path("World::setIterations") / "iterations", iterations, Range{0, kMaxIterations});
+  body.iterations = iterations;
+}
+
 void World::setMaxSpeeds(BodyId id, float linear, float angular) {
   const Path path("World::setMaxSpeeds");
   BodyData& body = bodyOf(impl_->data, id, "World::setMaxSpeeds");
@@ -191,6 +197,7 @@ void World::setMaxSpeeds(BodyId id, float linear, float angular) {
 float World::linearDamping(BodyId id) const { return bodyOf(impl_->data, id, "World::linearDamping").linearDamping; }
 float World::angularDamping(BodyId id) const { return bodyOf(impl_->data, id, "World::angularDamping").angularDamping; }
 float World::gravityScale(BodyId id) const { return bodyOf(impl_->data, id, "World::gravityScale").gravityScale; }
+int World::iterations(BodyId id) const { return bodyOf(impl_->data, id, "World::iterations").iterations; }
 uint8_t World::locks(BodyId id) const { return bodyOf(impl_->data, id, "World::locks").locks; }
 float World::maxLinearSpeed(BodyId id) const { return bodyOf(impl_->data, id, "World::maxLinearSpeed").maxLinearSpeed; }
 float World::maxAngularSpeed(BodyId id) const {

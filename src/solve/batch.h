@@ -76,9 +76,9 @@ struct LinkedJoints {
 struct IslandRange {
   uint32_t begin = 0, end = 0;  ///< body rows
   bool hasTree = false;
-  bool inTiles = false;   ///< has ball or fixed joints that no tree holds
   bool coupled = false;   ///< holds rows that the preconditioner does not solve exactly
   bool floating = false;  ///< touches nothing static or kinematic
+  bool inTiles = false;   ///< has ball or fixed joints that no tree holds
 };
 
 struct BatchView {

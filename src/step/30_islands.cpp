@@ -72,6 +72,8 @@ void listBodies(const WorldData& world, StepData& step) {
     Island& island = step.islands[step.islandOf[slot]];
     step.order[island.bodyBegin + island.bodyCount++] = slot;
     island.mass += world.bodies[slot].mass;
+    const int asked = world.bodies[slot].iterations;
+    island.iterations = std::max(island.iterations, asked > 0 ? asked : world.def.iterations);
   });
 }
 

@@ -139,10 +139,14 @@ void layOutBatches(const WorldData& world, StepData& step) {
   while (island < step.islands.size()) {
     BatchRange batch;
     batch.islandBegin = island;
+    batch.iterations = step.islands[island].iterations;
     batch.orderBegin = step.islands[island].bodyBegin;
     batch.rowBegin = rows;
     batch.lockedBegin = static_cast<uint32_t>(step.lockedRows.size());
-    for (uint32_t bodies = 0; island < step.islands.size() && bodies < kBatchBodies; ++island, ++batch.islandCount)
+    const auto fits = [&] {
+      return island < step.islands.size() && step.islands[island].iterations == batch.iterations;
+    };
+    for (uint32_t bodies = 0; fits() && bodies < kBatchBodies; ++island, ++batch.islandCount)
       bodies += step.islands[island].bodyCount;
     addBodies(world, step, batch);
     addPairs(world, step, batch);

@@ -3,6 +3,7 @@
 
 #include "step/begin_rows.h"
 #include "step/restitution.h"
+#include "step/settings.h"
 
 namespace avbd {
 
@@ -18,6 +19,12 @@ float normalBias(const WorldData& world, const StepData& step, float separation)
   return std::min((1 - step.alpha) * -gap, world.def.maxDepenetrationSpeed * step.h);
 }
 
+/// What an iteration of the pair's island leaves of its multipliers.
+float leakOf(const StepData& step, const PairData& pair) {
+  const int iterations = step.islands[islandOfPair(step, pair)].iterations;
+  return withIterations(step.solve, iterations).contactLeak;
+}
+
 rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& step, PairData& pair, int i) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   PointMemory& memory = pair.points[i];
@@ -25,7 +32,7 @@ rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& 
       rotate(a.rotation, memory.anchorA) - rotate(b.rotation, memory.anchorB) - toFloat(b.position - a.position);
   // The force of an impact is no guess for the step after it.
   if (memory.rebound > 0) memory.lambda = {};
-  const float leak = step.solve.contactLeak;
+  const float leak = leakOf(step, pair);
   rows::ContactPointRows<float> p{};
   p.arm = toRow(pair.manifold.points[i].position);
   p.biasN = normalBias(world, step, pair.manifold.points[i].separation);
@@ -85,7 +92,7 @@ rows::Contact<float> changedRows(WorldData& world, const StepData& step, uint32_
 rows::FullContact<float> fullRows(WorldData& world, const StepData& step, uint32_t index) {
   const PairData& pair = world.pairs[index];
   const ContactChange& change = changeOf(step, index);
-  const float leak = step.solve.contactLeak, share = 1 - step.alpha;
+  const float leak = leakOf(step, pair), share = 1 - step.alpha;
   rows::FullContact<float> full{};
   full.contact = changedRows(world, step, index);
   full.torsional = pair.torsionalFriction, full.rolling = pair.rollingFriction;

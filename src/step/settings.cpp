@@ -16,6 +16,14 @@ constexpr int kKrylovIterations = 8;
 
 }  // namespace
 
+SolveSettings withIterations(SolveSettings settings, int iterations) {
+  const float share = static_cast<float>(kReferenceIterations) / static_cast<float>(iterations);
+  settings.iterations = iterations;
+  settings.contactLeak = 1 - std::min(0.5f, kLeak * share);
+  settings.jointLeak = 1 - kJointLeak * share;
+  return settings;
+}
+
 void chooseSettings(const WorldData& world, StepData& step, float h) {
   const WorldDef& def = world.def;
   const float steps = h / kReferenceStep;
@@ -25,11 +33,8 @@ void chooseSettings(const WorldData& world, StepData& step, float h) {
   const float fall = 2 * length(def.gravity) * h * h;
   step.loadDepth = fall > 0 ? fall : kLoadDepth * def.lengthUnit * steps * steps;
   step.solve.h = h;
-  step.solve.iterations = def.iterations;
   step.solve.krylovIterations = def.krylovIterations > 0 ? def.krylovIterations : kKrylovIterations;
-  step.solve.contactLeak =
-      1 - std::min(0.5f, kLeak * static_cast<float>(kReferenceIterations) / static_cast<float>(def.iterations));
-  step.solve.jointLeak = 1 - kJointLeak * static_cast<float>(kReferenceIterations) / static_cast<float>(def.iterations);
+  step.solve = withIterations(step.solve, def.iterations);
   const int width = def.simdWidth > 0 ? def.simdWidth : widestLane();
   step.backend = &backend(width);
 }

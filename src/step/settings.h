@@ -9,6 +9,8 @@ namespace avbd {
 inline constexpr float kReferenceStep = 1.0f / 60;
 inline constexpr int kReferenceIterations = 4;
 
+/// The same for another number of outer iterations.
+SolveSettings withIterations(SolveSettings settings, int iterations);
 void chooseSettings(const WorldData& world, StepData& step, float h);
 
 }  // namespace avbd

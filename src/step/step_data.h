@@ -23,12 +23,14 @@ struct Island {
   uint32_t pairBegin = 0, pairCount = 0;    ///< in StepData::islandPairs
   uint32_t jointBegin = 0, jointCount = 0;  ///< in StepData::islandJoints
   float mass = 0;                           ///< [kg]
+  int iterations = 0;                       ///< outer ones
   bool floating = true;
 };
 
 /// Where the pieces of a batch lie in the arrays of StepData.
 struct BatchRange {
   uint32_t islandBegin = 0, islandCount = 0;
+  int iterations = 0;  ///< of all its islands
   uint32_t orderBegin = 0, bodies = 0;
   uint32_t rowBegin = 0, rows = 0;
   uint32_t contactTile = 0, contactTiles = 0;

@@ -59,6 +59,7 @@ uint32_t addBody(WorldData& data, const BodyDef& def, const BodyPlan& plan) {
   body.linearDamping = def.linearDamping;
   body.angularDamping = def.angularDamping;
   body.gravityScale = def.gravityScale;
+  body.iterations = def.iterations;
   body.maxLinearSpeed = def.maxLinearSpeed;
   body.maxAngularSpeed = def.maxAngularSpeed;
   body.locks = def.locks;

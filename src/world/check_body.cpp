@@ -58,6 +58,7 @@ void checkMotion(const Path& path, const BodyDef& def, float unit) {
   checkLocks(path / "locks", def.locks);
   check(path / "maxLinearSpeed", def.maxLinearSpeed, positive(kMaxSpeed * unit));
   check(path / "maxAngularSpeed", def.maxAngularSpeed, positive(kMaxSpin));
+  check(path / "iterations", def.iterations, Range{0, kMaxIterations});
 }
 
 // `shape` with the fields of BodyDef that belong to it; errors name it as the user wrote it.

@@ -11,7 +11,7 @@ void checkWorld(const WorldDef& def) {
   const double unit = def.lengthUnit;
   check(path / "gravity", def.gravity, symmetric(kMaxAcceleration * unit));
   check(path / "workers", def.workers, Range{1, 1024});
-  check(path / "iterations", def.iterations, Range{1, 1000});
+  check(path / "iterations", def.iterations, Range{1, kMaxIterations});
   check(path / "substeps", def.substeps, Range{1, 1000});
   check(path / "restitutionThreshold", def.restitutionThreshold, notNegative(kMaxSpeed * unit));
   check(path / "maxDepenetrationSpeed", def.maxDepenetrationSpeed, notNegative(kMaxSpeed * unit));

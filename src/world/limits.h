@@ -21,6 +21,7 @@ inline constexpr double kMaxDensity = 1e12;                       ///< [kg/m^3]
 inline constexpr double kMaxForce = 1e18;                         ///< [N], also of torques and impulses
 inline constexpr double kMaxVolume = 1e27;                        ///< [m^3]
 inline constexpr double kMaxStiffness = 1e30;
+inline constexpr int kMaxIterations = 1000;
 inline constexpr double kMaxRate = 1e6;  ///< [1/s] of damping; also of friction and gravityScale, which have no unit
 
 /// How much a sum of two principal moments may fall short of the third: files round their figures.

@@ -26,6 +26,7 @@ struct BodyData {
   float mass = 0;               ///< 0 for static and kinematic
   SymMat3 inertia, invInertia;  ///< about the centre, body axes
   float linearDamping = 0, angularDamping = 0, gravityScale = 1;
+  int iterations = 0;  ///< as BodyDef::iterations
   float maxLinearSpeed = 0, maxAngularSpeed = 0;
   float radius = 0;             ///< of a ball about the centre of mass that holds all bounded shapes but triggers
   float minExtent = 0;          ///< smallest half thickness of its convex shapes, triggers left out

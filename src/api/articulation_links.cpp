@@ -1,5 +1,4 @@
-// Articulations: which links collide with each other (articulation.h). Links are bodies of the world, so their rule is
-// kept as the world's own exclusions.
+// Articulations: what is set of all links at once (articulation.h). Links are bodies of the world, which keeps it.
 #include <avbd/articulation.h>
 #include <avbd/world.h>
 
@@ -7,6 +6,7 @@
 #include <set>
 
 #include "api/articulation_check.h"
+#include "world/limits.h"
 
 namespace avbd {
 namespace {
@@ -55,6 +55,13 @@ void Articulation::setSelfCollision(World& world, const SelfCollision& rule) con
         world.allowCollision(links[i], links[j]);
     }
   }
+}
+
+void Articulation::setIterations(World& world, int iterations) const {
+  const Path call("Articulation::setIterations");
+  const std::vector<BodyId> links = livingLinks(world, *this, call);
+  check(call / "iterations", iterations, Range{0, kMaxIterations});
+  for (const BodyId link : links) world.setIterations(link, iterations);
 }
 
 std::vector<std::array<BodyId, 2>> Articulation::excludedPairs(const World& world) const {
