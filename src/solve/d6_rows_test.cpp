@@ -100,6 +100,35 @@ TEST(D6Rows, JacobianOfLocksIsTheDerivative) {
   }
 }
 
+// With the axes of J held at the start of the step, the force of an elliptic cone turns as its row without force says.
+TEST(D6Rows, AConesNormalTurnsAsItsSecondRowSays) {
+  Random random(5);
+  for (int round = 0; round < 100; ++round) {
+    D6Joint<float> of = randomJoint(random, 1.5f);
+    of.tau = 0;
+    of.cone = {.inverseY = 1 / randomSize(random, 0.1f, 2), .inverseZ = 1 / randomSize(random, 0.1f, 2), .upper = 1};
+    of.cone.scale = 0.5f, of.cone.k = 100, of.cone.s = 1, of.cone.lambda = 20;
+    D6Joint<Precise> joint = precise(of);
+    double d[12] = {};
+    const Probe<Precise> here = rowsAt(joint, {.cone = true}, d);
+    ASSERT_EQ(here.count, 2);
+    EXPECT_EQ(here.row[1].C.v * here.row[1].k.v + here.row[1].s.v, 0) << "it has no force";
+    const V3<Precise>& t = here.row[1].ang;
+    const Precise along[3] = {t.x, t.y, t.z};
+    for (int u = 0; u < 3; ++u) {
+      constexpr double kStep = 1e-6;
+      d[3 + u] = kStep;
+      const Probe<Precise> up = rowsAt(joint, {.cone = true}, d);
+      d[3 + u] = -kStep;
+      const Probe<Precise> down = rowsAt(joint, {.cone = true}, d);
+      d[3 + u] = 0;
+      const V3<Precise> change = (up.row[0].ang - down.row[0].ang) * (joint.cone.lambda / Precise(2 * kStep));
+      const V3<Precise> expected = t * (here.row[1].k * along[u]);
+      ASSERT_NEAR(length(change - expected).v, 0, 1e-5 * (1 + length(change).v)) << "round " << round;
+    }
+  }
+}
+
 TEST(D6Rows, CoordinatesMeanWhatTheySay) {
   Random random(3);
   for (int round = 0; round < 100; ++round) {

@@ -26,8 +26,9 @@ inline constexpr float kJointFactor = 3000;
 /// the mass that it feels over h^2. By more, what Newton's step leaves of a curved C would release rows that push.
 inline constexpr float kActiveShare = 1 / kJointFactor;
 
-/// Most rows that a joint can emit: of six axes six each, and a cone (a turn to a rotation replaces three drives).
-inline constexpr int kScalarRows = 37;
+/// Most rows that a joint can emit: of six axes six each, and two of a cone; a turn to a rotation replaces three
+/// drives.
+inline constexpr int kScalarRows = 38;
 
 struct ScalarJoint {
   enum class Kind : uint8_t { D6, Distance };

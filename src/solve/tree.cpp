@@ -71,8 +71,11 @@ bool sameAxis(const rows::PairRow<float>& a, const rows::PairRow<float>& b) {
 /// Adds a row to those that a scalar joint has in this iteration.
 void addMixed(const TreeJoint& joint, MixedRows& mixed, const ScalarRows& list, int i, const RowForce& force) {
   const bool exact = force.kind == RowKind::Exact;
+  if (mixed.m == kMixedRows) {  // only the turning of a cone's normal, which has no force, finds no room
+    AVBD_ASSERT(!exact && i == list.count - 1);
+    return;
+  }
   const int at = mixed.m++;
-  AVBD_ASSERT(mixed.m <= kMixedRows);
   mixed.violation[at] = exact ? list.row[i].C : 0;
   mixed.compliance[at] = exact ? 0 : 1 / force.k;
   mixed.lambda[at] = exact ? list.lambda[i] : nullptr;

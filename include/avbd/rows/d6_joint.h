@@ -17,7 +17,10 @@
 // what resists by itself (spring, damper, and the inertia that turns with the coordinate, k = a / h^2 about where it
 // would go unhindered), and a given force. Rows of the joint: the cone C = u (n - 1), n = |(sy / ly, sz / lz)|,
 // one-sided, u what makes it an angle where the step starts; and the turn to a rotation T, C = -log(q_A T q_B^-1) along
-// the axes that A had at the start. Left out: the derivative of J.
+// the axes that A had at the start. The normal of an ellipse turns much in a step that meets it at speed: without the
+// derivative of the cone's J by the swing, Newton's steps leap to and fro between two sides of the ellipse and settle
+// nowhere. That derivative is lambda u / n t t^T along the ellipse, t = (sy J_sz - sz J_sy) / (n ly lz): a row without
+// force, k = lambda u / n and J = t. Left out: any other derivative of J.
 #pragma once
 
 #include <avbd/rows/row.h>
@@ -56,6 +59,7 @@ struct D6Cone {
   R upper;               ///< n at which the row begins to push
   R scale;               ///< u
   R k, s, lambda;
+  R none;  ///< multiplier of the row without force
 };
 
 /// A turn to a rotation.
@@ -151,6 +155,7 @@ struct D6Joint {
     for (int i = 3; i < 6; ++i) emitAxis(axes, i, m, sink);
     if (axes.cone) emitCone(m, sink);
     if (axes.slerp) emitSlerp(dA, dB, sink);
+    if (axes.cone) emitConeTurning(m, sink);
   }
 
   /// n of the cone.
@@ -257,6 +262,16 @@ struct D6Joint {
     const V3<R> ang = m.ang[4] * y + m.ang[5] * z;
     const R o = zero<R>(), inf = splat<R>(kInfinity);
     sink.emit(PairRow<R>{cone.scale * (n - cone.upper), zeroV3<R>(), ang, cone.k, cone.s, o, inf}, cone.lambda);
+  }
+
+  /// The turning of the cone's normal. Last of all rows: where a tree has no room left it may go.
+  template <class Sink>
+  AVBD_INLINE void emitConeTurning(const D6Measure<R>& m, Sink& sink) {
+    const R inverseN = 1.0f / max(coneMeasure(m.q[4], m.q[5]), splat<R>(1e-6f));
+    const R k = cone.lambda * cone.scale * inverseN, size = cone.inverseY * cone.inverseZ * inverseN;
+    const V3<R> ang = (m.ang[5] * m.q[4] - m.ang[4] * m.q[5]) * size;
+    const R o = zero<R>(), inf = splat<R>(kInfinity);
+    sink.emit(PairRow<R>{o, zeroV3<R>(), ang, k, o, -inf, inf}, cone.none);
   }
 
   template <class Sink>
