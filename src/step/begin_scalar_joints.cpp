@@ -105,9 +105,9 @@ void fillSlerp(const StepData& step, const Frame& frame, const D6Data& data, Sca
 void findCoordinates(const D6Data& data, rows::D6Joint<float>& rows) {
   const Twist<float> still = rows::zeroTwist<float>();
   float q[6];
-  rows.axis[3].start = rows.rawTwist = 0;
+  rows.axis[3].start = 0;
   rows.coordinates(still, still, q);
-  rows.rawTwist = q[3];
+  q[3] = rows.twistAtStart();
   for (int i = 0; i < 6; ++i) rows.axis[i].start = q[i];
   if (data.twistKnown) rows.axis[3].start = data.twist + rows::withinHalfTurn(q[3] - data.twist);
 }

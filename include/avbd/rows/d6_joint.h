@@ -3,7 +3,8 @@
 // Coordinates. Linear: q_i = a_i . (pB - pA), a_i the axes of frame A, p the frames' origins.
 // Angular, with b_i the axes of frame B and w the turning of B against A:
 // - all three locked: C = log(q_A^-1 q_B) in world axes; J = 1, exact where the frames coincide.
-// - twist about x: angle of the twist part of the swing-twist decomposition; J = (a1 + b1) / (1 + a1 . b1).
+// - twist about x: angle of the twist part of the swing-twist decomposition; J = (a1 + b1) / (1 + a1 . b1). Measured as
+//   what the motion of the step adds to it: a stiff drive would feel the rounding of a whole angle's rotations.
 // - swing about y and z: the rotation vector (0, sy, sz) that takes a1 to b1, seen in frame A. With the components
 //   (bx, by, bz) of b1 in frame A and g = s / sin s of the angle s between them, sz = g by, sy = -g bz;
 //   J_sz = g (b1 x a2) + by g' (b1 x a1), J_sy = -g (b1 x a3) - bz g' (b1 x a1), g' = dg/dbx = (bx g - 1) / (1 - bx^2).
@@ -110,7 +111,6 @@ struct D6Joint {
   V3<R> armA, armB;  ///< centre of mass to frame A's and to frame B's origin
   Q4<R> qA, qB;      ///< frames to world at the start of the step
   R tau, adapts;     ///< armBlendAt()
-  R rawTwist;        ///< twist at the start as the rows see it, within half a turn
   V3<R> logHeld;     ///< of three locked angles: what C leaves uncorrected
   D6Axis<R> axis[6];
   D6Cone<R> cone;
@@ -119,6 +119,13 @@ struct D6Joint {
   /// The coordinates after the motions, unwrapped.
   AVBD_INLINE void coordinates(const Twist<R>& dA, const Twist<R>& dB, R (&q)[6]) const {
     coordinatesAt(poseAfter(dA, dB), q);
+  }
+
+  /// The twist at the start of the step, within half a turn.
+  AVBD_INLINE R twistAtStart() const {
+    const Q4<R> turn = conjugate(qA) * qB;
+    const R half = atan2(turn.x, turn.w);
+    return withinHalfTurn(half + half);
   }
 
   /// The same with J.
@@ -183,7 +190,7 @@ struct D6Joint {
  private:
   struct Pose6 {
     V3<R> a[3], b1, offset, armA, armB;
-    Q4<R> qA, qB;
+    Q4<R> turn;  ///< of B against A in the step
     AVBD_INLINE V3<R> inA() const { return {dot(a[0], b1), dot(a[1], b1), dot(a[2], b1)}; }
   };
 
@@ -191,7 +198,7 @@ struct D6Joint {
     for (int i = 0; i < 3; ++i) q[i] = dot(end.a[i], end.offset);
     const V3<R> b = end.inA();
     const R g = swingFactor(b.x);
-    q[3] = axis[3].start + withinHalfTurn(twistOf(end) - rawTwist);
+    q[3] = twistAfter(end.turn);
     q[4] = -(g * b.z);
     q[5] = g * b.y;
   }
@@ -203,15 +210,20 @@ struct D6Joint {
                   (c * g - 1.0f) / max(squared, splat<R>(1e-6f)));
   }
 
-  AVBD_INLINE static R twistOf(const Pose6& p) {
-    const Q4<R> turn = conjugate(p.qA) * p.qB;
-    const R half = atan2(turn.x, turn.w);
-    return withinHalfTurn(half + half);
+  /// With r the turning of B against A in the step, q0 = q_A^-1 q_B turns to q0 + q_A^-1 (r - 1) q_B, whose second term
+  /// is as exact as the step is small; half the twist is the angle of (w, x).
+  AVBD_INLINE R twistAfter(Q4<R> r) const {
+    const R sine2 = r.x * r.x + r.y * r.y + r.z * r.z;
+    r.w = select(r.w > 0.0f, -sine2 / (1.0f + r.w), r.w - 1.0f);
+    const Q4<R> start = conjugate(qA) * qB, more = conjugate(qA) * r * qB;
+    const R half =
+        atan2(more.x * start.w - start.x * more.w, start.w * (start.w + more.w) + start.x * (start.x + more.x));
+    return axis[3].start + withinHalfTurn(half + half);
   }
 
   AVBD_INLINE Pose6 poseAt(const Q4<R>& turnedA, const Q4<R>& turnedB) const {
     Pose6 p;
-    p.qA = turnedA, p.qB = turnedB;
+    p.turn = identityQuat<R>();
     const R o = zero<R>(), one = splat<R>(1);
     p.a[0] = rotate(turnedA, V3<R>{one, o, o});
     p.a[1] = rotate(turnedA, V3<R>{o, one, o});
@@ -228,6 +240,7 @@ struct D6Joint {
   AVBD_INLINE Pose6 poseAfter(const Twist<R>& dA, const Twist<R>& dB) const {
     const Q4<R> turnA = expQuat(dA.ang), turnB = expQuat(dB.ang);
     Pose6 p = poseAt(turnA * qA, turnB * qB);
+    p.turn = conjugate(turnA) * turnB;
     const V3<R> endA = rotate(turnA, armA), endB = rotate(turnB, armB);
     p.offset = offset + (dB.lin - dA.lin) + (endB - armB) - (endA - armA);
     p.armA = endA + p.offset, p.armB = endB;
