@@ -118,6 +118,7 @@ struct SolveSettings {
   float h = 0;  ///< [s] of a substep
   int iterations = 4;
   int krylovIterations = 8;
+  int newtonFactor = 8;    ///< Newton steps of islands that are solved exactly: at most so many times the iterations
   float contactLeak = 1;   ///< share of a contact multiplier that survives an iteration
   float jointLeak = 1;     ///< the same of joints outside trees: loops that cannot close must not wind up
   float floorFactor = 10;  ///< c: stiffness floor is c / (w h^2)

@@ -20,7 +20,6 @@ namespace {
 
 constexpr float kSettled = 3e-5f;  ///< relative change of a tree's pose that ends its outer iterations
 
-constexpr int kNewtonFactor = 8;            ///< all Newton steps are at most so many times the outer iterations
 constexpr float kRelativeResidual = 1e-9f;  ///< of r . M^-1 r, squared norm: an island below it is solved
 
 /// All bodies stand in trees, which factor their own blocks.
@@ -243,7 +242,7 @@ void solveKrylov(const BatchView& view, const Backend& backend, const SolveSetti
   }
   if (!forest) return;
   retireCoupled(view, scratch);
-  for (int i = settings.iterations; i < kNewtonFactor * settings.iterations && anyUnsolved(scratch); ++i) {
+  for (int i = settings.iterations; i < settings.newtonFactor * settings.iterations && anyUnsolved(scratch); ++i) {
     iterate(view, backend, settings, forest, Phase::Newton, scratch);
     retireSettled(view, kSettled, false, scratch);
   }

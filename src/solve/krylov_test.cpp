@@ -22,7 +22,7 @@ void PrintTo(const IslandCase& c, std::ostream* out) {
 
 SolveSettings settings(int iterations, int krylov) {
   SolveSettings s;
-  s.h = TestBatch::kStep, s.iterations = iterations, s.krylovIterations = krylov;
+  s.h = TestBatch::kStep, s.iterations = iterations, s.krylovIterations = krylov, s.newtonFactor = 1;
   return s;
 }
 

@@ -118,6 +118,54 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Trees,
                                          TreeCase{6, Support::Static, true, 1}, TreeCase{9, Support::Free, false, 1000},
                                          TreeCase{9, Support::Static, false, 1000}));
 
+/// Couples every node to all that stand before it, so that any loop has its block.
+void fillWhole(Forest& forest) {
+  for (size_t i = 0; i < forest.nodes.size(); ++i) {
+    forest.nodes[i].fillBegin = static_cast<uint32_t>(forest.fills.size());
+    forest.nodes[i].fillCount = static_cast<uint32_t>(i);
+    for (size_t other = i; other-- > 0;) forest.fills.emplace_back().node = static_cast<int32_t>(other);
+  }
+}
+
+/// A ball or fixed joint between two nodes that no tree holds, and its block.
+void addLoop(TestBatch& batch, size_t a, size_t b, Random& random) {
+  Forest& forest = batch.forest;
+  const size_t balls = batch.balls.size(), fixed = batch.fixed.size();
+  addJoint(batch, forest.nodes[a].row, forest.nodes[b].row, random);
+  FilledPair pair;
+  pair.kind = batch.balls.size() > balls ? FilledPair::Kind::Ball : FilledPair::Kind::Fixed;
+  pair.lane = static_cast<uint32_t>(batch.balls.size() > balls ? balls : fixed);
+  pair.childIsA = a > b;
+  const size_t child = std::max(a, b), other = std::min(a, b);
+  pair.fill = forest.nodes[child].fillBegin + static_cast<uint32_t>(child - 1 - other);
+  forest.filledPairs.push_back(pair);
+}
+
+class Loops : public testing::TestWithParam<TreeCase> {};
+
+TEST_P(Loops, InTheFactorSolveLikeADenseSystem) {
+  for (uint64_t seed = 0; seed < 20 && !HasFatalFailure(); ++seed) {
+    Random random(seed);
+    TestBatch batch(GetParam().bodies, 1);
+    build(batch, GetParam(), random);
+    fillWhole(batch.forest);
+    for (int i = 0; i < 3; ++i) {
+      const size_t a = random.bits() % GetParam().bodies, b = random.bits() % GetParam().bodies;
+      if (a != b) addLoop(batch, a, b, random);
+    }
+    const DenseSystem system = systemOf(batch);
+    const BatchView view = batch.view();
+    prepare(batch, view);
+    batch.forest.solve(view, kAll, true);
+    expectSolution(batch, solveDense(system.m, system.right), 2e-3);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Loops,
+                         testing::Values(TreeCase{3, Support::Static, false, 1}, TreeCase{6, Support::Free, false, 1},
+                                         TreeCase{6, Support::Static, false, 1},
+                                         TreeCase{6, Support::Static, false, 100}));
+
 // A second right side, without violations, on the same factors: the multipliers add up.
 TEST(Forest, LaterSolutionsStayInTheNullSpaceAndAddTheirMultipliers) {
   Random random(3);
