@@ -23,6 +23,7 @@ void addToFront(ForestScratch& scratch, int32_t node, int32_t other) {
 void couple(ForestScratch& scratch, uint32_t rowA, uint32_t rowB, uint32_t bodies) {
   if (rowA >= bodies || rowB >= bodies || rowA == rowB) return;
   const int32_t a = scratch.nodeOf[rowA], b = scratch.nodeOf[rowB];
+  if (a < 0 || b < 0) return;  // has no node yet
   addToFront(scratch, std::max(a, b), std::min(a, b));
 }
 
@@ -32,9 +33,10 @@ void listLoops(StepData& step, const BatchRange& batch, const Forest& forest) {
   scratch.links.clear();
   scratch.frontOf.assign(forest.nodes.size(), kNone);
   for (const PlannedJoint& planned : scratch.joints)
-    if (!planned.inTree) couple(scratch, planned.rowA, planned.rowB, batch.bodies);
+    if (!planned.inTree && !scratch.wide[planned.island]) couple(scratch, planned.rowA, planned.rowB, batch.bodies);
   for (size_t i = batch.linkedBegin; i < step.linked.size(); ++i) {
     const LinkedJoint& joint = step.linked[i];
+    if (scratch.wide[joint.island]) continue;
     for (int a = 0; a < joint.bodies; ++a)
       for (int b = 0; b < a; ++b) couple(scratch, joint.row[a], joint.row[b], batch.bodies);
   }
@@ -74,7 +76,8 @@ void findFronts(StepData& step, const BatchRange& batch, Forest& forest) {
 
 bool affords(const StepData& step, const BatchRange& batch, uint32_t island) {
   const IslandRange& range = step.ranges[batch.islandBegin + island];
-  return step.planting.blocks[island] <= std::max(kBlocksAnyway, kBlocksPerBody * (range.end - range.begin));
+  return !step.planting.wide[island] &&
+         step.planting.blocks[island] <= std::max(kBlocksAnyway, kBlocksPerBody * (range.end - range.begin));
 }
 
 /// The block of two nodes.
@@ -113,6 +116,21 @@ void fillLinked(const StepData& step, const BatchRange& batch, Forest& forest, u
 
 }  // namespace
 
+bool releaseWide(StepData& step, const BatchRange& batch, Forest& forest) {
+  ForestScratch& scratch = step.planting;
+  listLoops(step, batch, forest);
+  findFronts(step, batch, forest);
+  bool any = false;
+  for (uint32_t n = 0; n < batch.islandCount; ++n)
+    if (!affords(step, batch, n)) scratch.wide[n] = any = true;
+  for (TreeNode& node : forest.nodes) node.fillCount = 0;
+  forest.fills.clear();
+  if (!any) return false;
+  for (PlannedJoint& planned : scratch.joints)
+    if (scratch.wide[planned.island]) planned.eligible = false;
+  return true;
+}
+
 void leaveLoops(StepData& step, const BatchRange& batch) {
   for (const PlannedJoint& planned : step.planting.joints)
     if (!planned.inTree) step.ranges[batch.islandBegin + planned.island].coupled = true;
@@ -123,11 +141,10 @@ void leaveLoops(StepData& step, const BatchRange& batch) {
 void fillForest(StepData& step, const BatchRange& batch, Forest& forest) {
   listLoops(step, batch, forest);
   findFronts(step, batch, forest);
-  for (TreeNode& node : forest.nodes) {
-    if (affords(step, batch, node.island)) continue;
-    node.fillCount = 0;
-    step.ranges[batch.islandBegin + node.island].coupled = true;
-  }
+  for (uint32_t n = 0; n < batch.islandCount; ++n)
+    if (!affords(step, batch, n)) step.ranges[batch.islandBegin + n].coupled = true;
+  for (TreeNode& node : forest.nodes)
+    if (!affords(step, batch, node.island)) node.fillCount = 0;
   for (const PlannedJoint& planned : step.planting.joints)
     if (!planned.inTree && affords(step, batch, planned.island)) fillPair(step, batch, forest, planned);
   for (size_t i = batch.linkedBegin; i < step.linked.size(); ++i)

@@ -70,8 +70,9 @@ bool addNode(Forest& forest, ForestScratch& scratch, uint32_t row, int32_t paren
 void grow(Forest& forest, ForestScratch& scratch, size_t next) {
   for (; next < forest.nodes.size(); ++next)
     for (uint32_t e = scratch.first[forest.nodes[next].row]; e != kNone; e = scratch.edges[e].next)
-      addNode(forest, scratch, scratch.edges[e].neighbour, static_cast<int32_t>(next),
-              static_cast<int32_t>(scratch.edges[e].joint));
+      if (scratch.joints[scratch.edges[e].joint].eligible)
+        addNode(forest, scratch, scratch.edges[e].neighbour, static_cast<int32_t>(next),
+                static_cast<int32_t>(scratch.edges[e].joint));
 }
 
 /// First what hangs on the world, then free trees from their lowest row.
@@ -85,7 +86,8 @@ void orient(Forest& forest, ForestScratch& scratch, uint32_t bodies) {
   }
   grow(forest, scratch, 0);
   for (uint32_t row = 0; row < bodies; ++row) {
-    if (scratch.first[row] == kNone || !addNode(forest, scratch, row, -1, -1)) continue;
+    if (scratch.first[row] == kNone || !scratch.joints[scratch.edges[scratch.first[row]].joint].eligible) continue;
+    if (!addNode(forest, scratch, row, -1, -1)) continue;
     grow(forest, scratch, forest.nodes.size() - 1);
   }
 }
@@ -96,9 +98,10 @@ void addLoneNodes(const WorldData& world, StepData& step, BatchRange& batch, For
     if (row < batch.bodies) addNode(forest, step.planting, row, -1, -1);
   };
   for (const PlannedJoint& planned : step.planting.joints)
-    if (!planned.inTree) add(planned.rowA), add(planned.rowB);
+    if (!planned.inTree && !step.planting.wide[planned.island]) add(planned.rowA), add(planned.rowB);
   for (uint32_t n = 0; n < batch.islandCount; ++n) {
     const Island& island = step.islands[batch.islandBegin + n];
+    if (step.planting.wide[n]) continue;
     for (uint32_t i = 0; i < island.jointCount; ++i) {
       const uint32_t slot = step.islandJoints[island.jointBegin + i];
       if (!isLinked(world.joints[slot].type)) continue;
@@ -195,6 +198,10 @@ void placeOthers(const WorldData& world, StepData& step, BatchRange& batch) {
   }
 }
 
+void nameIslands(const StepData& step, const BatchRange& batch, Forest& forest) {
+  for (TreeNode& node : forest.nodes) node.island = islandOfRow(step, batch, node.row);
+}
+
 Forest& emptyForest(StepData& step) {
   if (step.forestCount == step.forests.size()) step.forests.emplace_back();
   step.forests[step.forestCount].clear();
@@ -207,15 +214,20 @@ void plantForest(const WorldData& world, StepData& step, BatchRange& batch) {
   step.scalarOf.resize(world.joints.size(), kNone);
   listJoints(world, step, batch);
   Forest& forest = emptyForest(step);
+  step.planting.wide.assign(batch.islandCount, 0);
   orient(forest, step.planting, batch.bodies);
+  nameIslands(step, batch, forest);
   const bool exact = world.def.primalSolver == PrimalSolver::Krylov;
+  if (exact && releaseWide(step, batch, forest)) {
+    forest.clear();
+    for (PlannedJoint& planned : step.planting.joints) planned.inTree = false;
+    orient(forest, step.planting, batch.bodies);
+  }
   if (exact) addLoneNodes(world, step, batch, forest);
   placeJoints(world, step, batch, forest);
   placeOthers(world, step, batch);
-  for (TreeNode& node : forest.nodes) {
-    node.island = islandOfRow(step, batch, node.row);
-    step.ranges[batch.islandBegin + node.island].hasTree = true;
-  }
+  nameIslands(step, batch, forest);
+  for (const TreeNode& node : forest.nodes) step.ranges[batch.islandBegin + node.island].hasTree = true;
   if (!forest.nodes.empty()) batch.forest = step.forestCount++;
   exact ? fillForest(step, batch, forest) : leaveLoops(step, batch);
 }

@@ -29,6 +29,9 @@ void fillLinkedJoints(const WorldData& world, StepData& step);  ///< after the s
 uint32_t rowInBatch(const WorldData& world, StepData& step, BatchRange& batch, uint32_t body);
 /// Chooses which joints of a batch its exact trees hold; the others get lanes of their own.
 void plantForest(const WorldData& world, StepData& step, BatchRange& batch);
+/// Finds the islands whose joints' loops no factor can hold, and takes their joints from the trees: of a net a tree is
+/// only a small part, and solving it exactly costs more than it helps. True if there are any.
+bool releaseWide(StepData& step, const BatchRange& batch, Forest& forest);
 /// Gives the loops of a batch to its forest's factor where that stays narrow.
 void fillForest(StepData& step, const BatchRange& batch, Forest& forest);
 /// Leaves all of them to iterations.

@@ -90,6 +90,7 @@ struct ForestScratch {
   std::vector<FrontLink> links;
   std::vector<int32_t> front;    ///< of one node
   std::vector<uint32_t> blocks;  ///< by island: what its fill costs
+  std::vector<uint8_t> wide;     ///< by island: its loops would cost too much, and trees in it be no use
 };
 
 /// Colours of the dynamic bodies, and what finding them needs; empty unless the block sweep runs.
