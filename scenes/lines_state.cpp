@@ -196,7 +196,7 @@ std::vector<Figure> noAllocation(const Settings& settings) {
   std::vector<Figure> figures;
   for (const char* name : {"stacks", "chain", "card_house", "heavy_on_light", "waves"}) {
     Model model = std::string(name) == "waves" ? wavesModel(settings) : find(name)->make(settings);
-    for (int i = 0; i < 120; ++i) model.world.step(static_cast<float>(kDt));
+    for (int i = 0; i < 300; ++i) model.world.step(static_cast<float>(kDt));
     const uint64_t before = allocationCount()();
     for (int i = 0; i < 60; ++i) model.world.step(static_cast<float>(kDt));
     const uint64_t made = allocationCount()() - before;

@@ -57,7 +57,7 @@ void collectFront(ForestScratch& scratch, const Forest& forest, int32_t node) {
 /// Fronts of all nodes whose islands can afford theirs.
 void findFronts(StepData& step, const BatchRange& batch, Forest& forest) {
   ForestScratch& scratch = step.planting;
-  scratch.blocks.assign(batch.islandCount, 0);
+  scratch.blocks.assign(batch.bodies, 0);
   for (size_t i = forest.nodes.size(); i-- > 0;) {
     TreeNode& node = forest.nodes[i];
     const IslandRange& island = step.ranges[batch.islandBegin + node.island];

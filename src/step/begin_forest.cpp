@@ -2,6 +2,8 @@
 //
 // The bodies stand in breadth-first order from the world, so that what closes loops joins neighbours in the order and
 // the factor stays narrow (begin_fill.cpp).
+#include <algorithm>
+
 #include "step/begin_rows.h"
 #include "world/joints.h"
 
@@ -198,6 +200,11 @@ void placeOthers(const WorldData& world, StepData& step, BatchRange& batch) {
   }
 }
 
+bool hasJoints(const StepData& step, const BatchRange& batch) {
+  const Island* first = step.islands.data() + batch.islandBegin;
+  return std::any_of(first, first + batch.islandCount, [](const Island& island) { return island.jointCount > 0; });
+}
+
 void nameIslands(const StepData& step, const BatchRange& batch, Forest& forest) {
   for (TreeNode& node : forest.nodes) node.island = islandOfRow(step, batch, node.row);
 }
@@ -211,10 +218,11 @@ Forest& emptyForest(StepData& step) {
 }  // namespace
 
 void plantForest(const WorldData& world, StepData& step, BatchRange& batch) {
+  if (!hasJoints(step, batch)) return;
   step.scalarOf.resize(world.joints.size(), kNone);
   listJoints(world, step, batch);
   Forest& forest = emptyForest(step);
-  step.planting.wide.assign(batch.islandCount, 0);
+  step.planting.wide.assign(batch.bodies, 0);  // as many islands at most
   orient(forest, step.planting, batch.bodies);
   nameIslands(step, batch, forest);
   const bool exact = world.def.primalSolver == PrimalSolver::Krylov;

@@ -9,6 +9,10 @@ namespace avbd {
 
 namespace {
 
+/// Nets are made of ball joints, and conjugate gradients solve them; a little less stiff under load, they converge
+/// better.
+constexpr float kBallShare = 0.75f;
+
 rows::FixedJoint<float> jointRows(const WorldData& world, const StepData& step, const JointData& joint) {
   const JointSide a = jointSide(world, joint, 0), b = jointSide(world, joint, 1);
   rows::FixedJoint<float> rows{};
@@ -21,7 +25,7 @@ rows::FixedJoint<float> jointRows(const WorldData& world, const StepData& step, 
       world.def.jointArmBlend >= 0 ? world.def.jointArmBlend : armBlend(step, a, b, length(rows.ball.lambda));
   const float w = a.invMass + b.invMass + a.turning * dot(a.arm, a.arm) + b.turning * dot(b.arm, b.arm);
   rows.ball.k = stiffnessInUse(step, w);
-  rows.ball.load = loadInUse(step, w, a.invMass + b.invMass);
+  rows.ball.load = kBallShare * loadInUse(step, w, a.invMass + b.invMass);
   if (joint.type != JointType::Fixed) return rows;
   rows.q0 = a.axes * conjugate(b.axes);
   const rows::V3<float> turned = logQuat(rows.q0);

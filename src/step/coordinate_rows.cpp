@@ -11,7 +11,9 @@ namespace avbd {
 namespace {
 
 /// Of the depth at which a contact holds its load, a loaded joint gives way by this part.
-constexpr float kLoadsPerFall = 48;
+constexpr float kLoadsPerFall = 64;
+/// But no less than this part of the slop, where the rounding of C would be as large.
+constexpr float kLeastDepth = 0.01f;
 
 bool isLimited(const JointLimit& limit) { return limit.lower > -rows::kInfinity || limit.upper < rows::kInfinity; }
 
@@ -107,7 +109,8 @@ float stiffnessInUse(const StepData& step, float w) { return w > 0 ? kJointFacto
 
 float loadInUse(const StepData& step, float w, float massless) {
   if (!(w > 0) || !(massless > 0)) return 0;
-  return kLoadsPerFall / (step.loadDepth * std::sqrt(w / massless));
+  const float depth = std::max(step.loadDepth / kLoadsPerFall, kLeastDepth * step.slop);
+  return 1 / (depth * std::sqrt(w / massless));
 }
 
 float fillDriveOf(const StepData& step, const JointDrive& drive, float inertia, rows::D6Axis<float>& x) {
