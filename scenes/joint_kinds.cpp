@@ -65,7 +65,7 @@ bool spans(JointKind kind) {
 
 JointId connect(Build& build, JointKind kind, BodyId a, BodyId b, const Spot& at) {
   const float distance = static_cast<float>(length(at.b - at.a));
-  const Vec3d up{0, 25, 0};
+  const Vec3d up{0, kWheelHeight, 0};
   switch (kind) {
     case JointKind::Fixed:
       return span(build, FixedJoint{}, a, b, at);
