@@ -5,9 +5,11 @@
 
 #include <cmath>
 
+#include "io/mjcf_math.h"
+
 namespace avbd::probe_math {
 
-inline Vec3d cross(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+using mjcf::cross;
 
 /// Products of float rotations are off by their rounding.
 inline Quat unit(Quat q) {

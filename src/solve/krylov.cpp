@@ -18,8 +18,7 @@ namespace avbd {
 
 namespace {
 
-constexpr float kSettled = 3e-5f;  ///< relative change of a tree's pose that ends its outer iterations
-
+constexpr float kSettled = 3e-5f;           ///< relative change of a tree's pose that ends its outer iterations
 constexpr float kRelativeResidual = 1e-9f;  ///< of r . M^-1 r, squared norm: an island below it is solved
 
 /// All bodies stand in trees, which factor their own blocks.
@@ -27,6 +26,10 @@ bool isForest(const BatchView& view, const Forest* forest) { return forest && fo
 
 /// The preconditioner solves the island in one go.
 bool isExact(const IslandRange& island) { return island.hasTree && !island.coupled; }
+
+enum class Phase { First, Outer, Newton };
+
+bool any(const std::vector<uint8_t>& islands) { return std::find(islands.begin(), islands.end(), 1) != islands.end(); }
 
 class Krylov {
  public:
@@ -39,7 +42,7 @@ class Krylov {
 
   void solve(int iterations) {
     begin();
-    for (int i = 0; i < iterations && anyActive(); ++i) {
+    for (int i = 0; i < iterations && any(s_.active); ++i) {
       multiply();
       for (uint32_t n = 0; n < v_.islands; ++n) advance(n);
       if (i + 1 == iterations) break;
@@ -66,7 +69,7 @@ class Krylov {
       v_.r[i] = i < 8 * v_.bodies ? -v_.gradient[i] : 0.0f;
     }
     if (forest_) meetViolations();
-    if (!anyActive()) return;
+    if (!any(s_.active)) return;
     precondition(false);
     for (uint32_t n = 0; n < v_.islands; ++n) {
       if (!s_.active[n]) continue;
@@ -88,16 +91,10 @@ class Krylov {
       k_.scaleAdd(v_.x, v_.z, 0, island.begin, island.end);
       if (!island.coupled) s_.active[n] = 0;
     }
-    if (!anyActive()) return;
+    if (!any(s_.active)) return;
     multiply();
     for (uint32_t n = 0; n < v_.islands; ++n)
       if (v_.island[n].hasTree && s_.active[n]) k_.addScaled(v_.r, v_.q, -1, v_.island[n].begin, v_.island[n].end);
-  }
-
-  bool anyActive() const {
-    for (uint32_t n = 0; n < v_.islands; ++n)
-      if (s_.active[n]) return true;
-    return false;
   }
 
   void advance(uint32_t n) {
@@ -160,15 +157,15 @@ void moveMultipliers(const BatchView& view, const PairTiles<Family>& tiles, floa
   }
 }
 
-/// Ends the outer iterations of islands that the preconditioner solves exactly once they do not move any more: their
-/// iteration is Newton's, and only such an island's next iteration depends on nothing but itself. Joints in tiles move
-/// their multipliers with those of all others as long as `tiles` says.
-void retireSettled(const BatchView& view, float settled, bool tiles, KrylovScratch& scratch) {
+/// Ends the iterations of islands that the preconditioner solves exactly once they do not move any more: their
+/// iteration is Newton's, and only such an island's next iteration depends on nothing but itself. In outer iterations
+/// all joints in tiles move their multipliers, so that what holds some goes on.
+void retireSettled(const BatchView& view, Phase phase, KrylovScratch& scratch) {
   for (uint32_t n = 0; n < view.islands; ++n) {
     const IslandRange& island = view.island[n];
-    if (!isExact(island) || !scratch.unsolved[n] || (tiles && island.inTiles)) continue;
+    if (!isExact(island) || !scratch.unsolved[n] || (phase != Phase::Newton && island.inTiles)) continue;
     const float moved = largest(view.x, island.begin, island.end), whole = largest(view.d, island.begin, island.end);
-    if (moved <= settled * whole) scratch.unsolved[n] = 0;
+    if (moved <= kSettled * whole) scratch.unsolved[n] = 0;
   }
 }
 
@@ -177,11 +174,7 @@ void retireSettled(const BatchView& view, float settled, bool tiles, KrylovScrat
 void retireCoupled(const BatchView& view, KrylovScratch& scratch) {
   for (uint32_t n = 0; n < view.islands; ++n)
     if (!isExact(view.island[n])) scratch.unsolved[n] = 0;
-  retireSettled(view, kSettled, false, scratch);
-}
-
-bool anyUnsolved(const KrylovScratch& scratch) {
-  return std::find(scratch.unsolved.begin(), scratch.unsolved.end(), 1) != scratch.unsolved.end();
+  retireSettled(view, Phase::Newton, scratch);
 }
 
 }  // namespace
@@ -206,8 +199,6 @@ void boundTurns(const BatchView& view) {
 }  // namespace
 
 namespace {
-
-enum class Phase { First, Outer, Newton };
 
 void iterate(const BatchView& view, const Backend& backend, const SolveSettings& settings, Forest* forest, Phase phase,
              KrylovScratch& scratch) {
@@ -237,14 +228,15 @@ void solveKrylov(const BatchView& view, const Backend& backend, const SolveSetti
                  KrylovScratch& scratch) {
   scratch.unsolved.assign(view.islands, 1);
   for (int i = 0; i < settings.iterations; ++i) {
-    iterate(view, backend, settings, forest, i > 0 ? Phase::Outer : Phase::First, scratch);
-    retireSettled(view, kSettled, true, scratch);
+    const Phase phase = i > 0 ? Phase::Outer : Phase::First;
+    iterate(view, backend, settings, forest, phase, scratch);
+    retireSettled(view, phase, scratch);
   }
   if (!forest) return;
   retireCoupled(view, scratch);
-  for (int i = settings.iterations; i < settings.newtonFactor * settings.iterations && anyUnsolved(scratch); ++i) {
+  for (int i = settings.iterations; i < settings.newtonFactor * settings.iterations && any(scratch.unsolved); ++i) {
     iterate(view, backend, settings, forest, Phase::Newton, scratch);
-    retireSettled(view, kSettled, false, scratch);
+    retireSettled(view, Phase::Newton, scratch);
   }
 }
 

@@ -97,7 +97,7 @@ void customRows(LinkedJoint& joint, const BatchView& view, LinkedRows& out) {
   }
 }
 
-/// J x of the last solution, summed over the bodies that move.
+/// J times an array of body rows, over the bodies that move.
 float moved(const LinkedJoint& joint, const LinkedRow& row, const BatchView& view, const float* array) {
   float sum = 0;
   for (int b = 0; b < joint.bodies; ++b)

@@ -41,12 +41,9 @@ void stampLinkedSides(const BatchView& view, LinkedJoint& joint, const Colors& c
   for (int i = 0; i < joint.stamped.count; ++i) {
     const LinkedRow& row = joint.stamped.row[i];
     const RowForce force = forceOf(row);
-    // A body may stand in a coupling more than once: its J is the sum.
     for (int b = 0; b < joint.bodies; ++b) {
-      if (!moves(joint.row[b]) || std::find(joint.row, joint.row + b, joint.row[b]) != joint.row + b) continue;
-      rows::Twist<float> j = row.j[b];
-      for (int other = b + 1; other < joint.bodies; ++other)
-        if (joint.row[other] == joint.row[b]) j += row.j[other];
+      if (!moves(joint.row[b]) || joint.first[b] != b) continue;
+      const rows::Twist<float> j = jacobianOf(joint, row, b);
       rows::Sym6<float> block = rows::zeroSym6<float>();
       addOuter(block, force.k, j);
       addTwist(view.gradient, plan.placeOf(joint.row[b]), j * force.force);

@@ -1,6 +1,8 @@
 // Exact trees: stamping, factorisation and solution.
 #include "solve/tree.h"
 
+#include <algorithm>
+
 #include "avbd/rows/sinks.h"
 #include "base/assert.h"
 #include "solve/body_rows.h"
@@ -24,12 +26,6 @@ void readBlock(const float* row, float (&h)[6][6]) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) h[3 + i][j] = al[3 * i + j];
   h[3][3] = a[0], h[4][4] = a[1], h[5][5] = a[2], h[4][3] = a[3], h[5][3] = a[4], h[5][4] = a[5];
-}
-
-void fillJacobian(float (&j)[6], const rows::PairRow<float>& row, const V3<float>& arm, float sign) {
-  const V3<float> ang = cross(arm, row.lin) + row.ang;
-  j[0] = sign * row.lin.x, j[1] = sign * row.lin.y, j[2] = sign * row.lin.z;
-  j[3] = sign * ang.x, j[4] = sign * ang.y, j[5] = sign * ang.z;
 }
 
 /// Force and geometric stiffness of a joint.
@@ -198,6 +194,15 @@ void Forest::clear() {
   fills.clear(), filledPairs.clear(), filledLinks.clear();
 }
 
+uint32_t Forest::fillOf(int32_t deeper, int32_t other) const {
+  const TreeNode& node = nodes[static_cast<size_t>(deeper)];
+  const uint32_t end = node.fillBegin + node.fillCount;
+  uint32_t fill = node.fillBegin;
+  while (fill < end && fills[fill].node != other) ++fill;
+  AVBD_ASSERT(fill < end);
+  return fill;
+}
+
 void Forest::factor(const BatchView& view, const uint8_t* active) {
   if (!fills.empty()) stampFill(view, *this, active);
   for (TreeNode& node : nodes)
@@ -220,9 +225,8 @@ void Forest::factor(const BatchView& view, const uint8_t* active) {
 void Forest::down(const BatchView& view, const uint8_t* active, bool violated) {
   for (TreeNode& node : nodes) {
     if (!active[node.island]) continue;
-    const Twist<float> r = readTwist(view.r, node.row);
-    const float y[6] = {r.lin.x, r.lin.y, r.lin.z, r.ang.x, r.ang.y, r.ang.z};
-    for (int k = 0; k < 6; ++k) node.y[k] = y[k];
+    const std::array<float, 6> r = entries(readTwist(view.r, node.row));
+    std::copy(r.begin(), r.end(), node.y);
   }
   for (size_t i = nodes.size(); i-- > 0;) {
     TreeNode& node = nodes[i];

@@ -100,6 +100,8 @@ class Forest {
   std::vector<FilledLink> filledLinks;
 
   void clear();
+  /// Index of the block of two nodes of one front; `deeper` is eliminated first.
+  uint32_t fillOf(int32_t deeper, int32_t other) const;
   std::span<TreeFill> front(const TreeNode& node) { return {fills.data() + node.fillBegin, node.fillCount}; }
 
   /// Adds the joints' forces and geometric stiffness to gradient, hessian and diagonal, and keeps J and C.

@@ -1,7 +1,6 @@
 // Loops in the exact solution (tree_fill.h).
 #include "solve/tree_fill.h"
 
-#include "base/assert.h"
 #include "solve/linked_joint.h"
 #include "solve/tree_parts.h"
 
@@ -35,9 +34,8 @@ void addPairBlock(const PairOp<float>& op, bool childIsA, float (&h)[6][6]) {
   Twist<float> column[6];
   columnsAtPoint(op.stiffness, childIsA ? op.armB : op.armA, column);
   for (int j = 0; j < 6; ++j) {
-    const Twist<float> w = shiftWrench(column[j], childIsA ? op.armA : op.armB);
-    const float value[6] = {w.lin.x, w.lin.y, w.lin.z, w.ang.x, w.ang.y, w.ang.z};
-    for (int i = 0; i < 6; ++i) h[i][j] -= value[i];
+    const std::array<float, 6> value = entries(shiftWrench(column[j], childIsA ? op.armA : op.armB));
+    for (size_t i = 0; i < 6; ++i) h[i][j] -= value[i];
   }
 }
 
@@ -45,11 +43,10 @@ void addLinkBlock(const LinkedJoint& joint, const FilledLink& link, float (&h)[6
   for (int n = 0; n < joint.stamped.count; ++n) {
     const LinkedRow& row = joint.stamped.row[n];
     if (!(row.k > 0)) continue;
-    const Twist<float> a = jacobianOf(joint, row, link.child), b = jacobianOf(joint, row, link.other);
-    const float left[6] = {a.lin.x, a.lin.y, a.lin.z, a.ang.x, a.ang.y, a.ang.z};
-    const float right[6] = {b.lin.x, b.lin.y, b.lin.z, b.ang.x, b.ang.y, b.ang.z};
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) h[i][j] += row.k * left[i] * right[j];
+    const std::array<float, 6> left = entries(jacobianOf(joint, row, link.child));
+    const std::array<float, 6> right = entries(jacobianOf(joint, row, link.other));
+    for (size_t i = 0; i < 6; ++i)
+      for (size_t j = 0; j < 6; ++j) h[i][j] += row.k * left[i] * right[j];
   }
 }
 
@@ -71,14 +68,6 @@ void maskFill(const BatchView& view, Forest& forest, TreeNode& node) {
           if (view.locked[i] == forest.nodes[static_cast<size_t>(fill.node)].row) fill.h[k][axis] = 0;
         }
     }
-}
-
-/// Where the block of two nodes of a front stands; `deeper` is eliminated first.
-float (&blockOf(Forest& forest, int32_t deeper, int32_t other))[6][6] {
-  for (TreeFill& fill : forest.front(forest.nodes[static_cast<size_t>(deeper)]))
-    if (fill.node == other) return fill.h;
-  AVBD_ASSERT(false);
-  return forest.fills.front().h;
 }
 
 /// R and S^-1 R of one node of the front.
@@ -132,7 +121,7 @@ void eliminateFilled(Forest& forest, TreeNode& node) {
     for (size_t a = 0; a < front.size(); ++a) {
       leave(front[a], front[a], rows.m, forest.nodes[static_cast<size_t>(front[a].node)].h);
       for (size_t b = a + 1; b < front.size(); ++b)
-        leave(front[a], front[b], rows.m, blockOf(forest, front[a].node, front[b].node));
+        leave(front[a], front[b], rows.m, forest.fills[forest.fillOf(front[a].node, front[b].node)].h);
     }
   });
 }

@@ -1,10 +1,22 @@
 // Small dense factorisations that the elimination of trees is made of.
 #pragma once
 
-#include "avbd/rows/math.h"
+#include <array>
+
+#include "avbd/rows/row.h"
 #include "solve/tree.h"
 
 namespace avbd {
+
+inline std::array<float, 6> entries(const rows::Twist<float>& t) {
+  return {t.lin.x, t.lin.y, t.lin.z, t.ang.x, t.ang.y, t.ang.z};
+}
+
+/// J of a row about the centre of mass of the body at `arm`; sign -1 for B.
+inline void fillJacobian(float (&j)[6], const rows::PairRow<float>& row, const rows::V3<float>& arm, float sign) {
+  const std::array<float, 6> at = entries(shiftWrench(rows::Twist<float>{row.lin, row.ang}, arm));
+  for (size_t k = 0; k < 6; ++k) j[k] = sign * at[k];
+}
 
 /// In place LDL^T of the lower triangle; the diagonal keeps inverse pivots. Only the first n rows.
 template <int kMax>

@@ -21,12 +21,6 @@ void massBlock(const BatchView& view, uint32_t row, Block& h) {
   h[3][3] = m[1], h[4][4] = m[2], h[5][5] = m[3], h[4][3] = m[4], h[5][3] = m[5], h[5][4] = m[6];
 }
 
-void fill(float (&j)[6], const rows::PairRow<float>& row, const V3<float>& arm, float sign) {
-  const V3<float> ang = cross(arm, row.lin) + row.ang;
-  const float value[6] = {row.lin.x, row.lin.y, row.lin.z, ang.x, ang.y, ang.z};
-  for (int k = 0; k < 6; ++k) j[k] = sign * value[k];
-}
-
 /// Keeps the rows that hold both ways whatever the forces are.
 template <class Rows, class List>
 void keepHard(const TreeJoint& joint, Rows& rows, const List& list, int count) {
@@ -34,8 +28,8 @@ void keepHard(const TreeJoint& joint, Rows& rows, const List& list, int count) {
   for (int i = 0; i < count; ++i) {
     const rows::PairRow<float>& row = list.row[i];
     if (row.s != 1 || row.lower != -rows::kInfinity || row.upper != rows::kInfinity) continue;
-    fill(joint.childIsA ? rows.jc[rows.m] : rows.jp[rows.m], row, list.armA, 1);
-    fill(joint.childIsA ? rows.jp[rows.m] : rows.jc[rows.m], row, list.armB, -1);
+    fillJacobian(joint.childIsA ? rows.jc[rows.m] : rows.jp[rows.m], row, list.armA, 1);
+    fillJacobian(joint.childIsA ? rows.jp[rows.m] : rows.jc[rows.m], row, list.armB, -1);
     ++rows.m;
   }
 }
@@ -101,11 +95,10 @@ void addParents(const TreeResponse& parent, TreeResponse& out) {
 }
 
 float form(const Twist<float>& a, const Block& m, const Twist<float>& b) {
-  const float left[6] = {a.lin.x, a.lin.y, a.lin.z, a.ang.x, a.ang.y, a.ang.z};
-  const float right[6] = {b.lin.x, b.lin.y, b.lin.z, b.ang.x, b.ang.y, b.ang.z};
+  const std::array<float, 6> left = entries(a), right = entries(b);
   float sum = 0;
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) sum += left[i] * m[i][j] * right[j];
+  for (size_t i = 0; i < 6; ++i)
+    for (size_t j = 0; j < 6; ++j) sum += left[i] * m[i][j] * right[j];
   return sum;
 }
 

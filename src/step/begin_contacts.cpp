@@ -9,7 +9,9 @@ namespace avbd {
 
 namespace {
 
-constexpr float kGroundedLoad = 4, kGroundedMost = 200;
+/// Of contacts with what does not move: how many times as stiff as others under their load, and the most that it comes
+/// to, in island masses over h^2; of others `kMost`.
+constexpr float kGroundedLoad = 4, kGroundedMost = 200, kMost = 2;
 
 /// Penetration beyond the slop, of which only a share is corrected in one step and never faster than allowed; or the
 /// whole gap, so that nothing stops short of touching.
@@ -25,14 +27,14 @@ float leakOf(const StepData& step, const PairData& pair) {
   return withIterations(step.solve, iterations).contactLeak;
 }
 
-rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& step, PairData& pair, int i) {
+rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& step, PairData& pair, int i,
+                                        float leak) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   PointMemory& memory = pair.points[i];
   const Vec3 slip =
       rotate(a.rotation, memory.anchorA) - rotate(b.rotation, memory.anchorB) - toFloat(b.position - a.position);
   // The force of an impact is no guess for the step after it.
   if (memory.rebound > 0) memory.lambda = {};
-  const float leak = leakOf(step, pair);
   rows::ContactPointRows<float> p{};
   p.arm = toRow(pair.manifold.points[i].position);
   p.biasN = normalBias(world, step, pair.manifold.points[i].separation);
@@ -68,14 +70,15 @@ rows::Contact<float> contactRows(const WorldData& world, const StepData& step, P
   // nothing, and a tall load on a light base needs it: it feels the lever.
   const bool grounded = !isDynamic(world, pair.bodyA) || !isDynamic(world, pair.bodyB);
   c.loadStiffness = (grounded ? kGroundedLoad : 1) / step.loadDepth;
-  c.stiffest = (grounded ? kGroundedMost : 2) * step.islands[islandOfPair(step, pair)].mass / (step.h * step.h);
+  c.stiffest = (grounded ? kGroundedMost : kMost) * step.islands[islandOfPair(step, pair)].mass / (step.h * step.h);
   Vec3 reference;
   for (int i = 0; i < pair.pointCount; ++i) reference = reference + pair.manifold.points[i].position;
   reference = reference * (1.0f / static_cast<float>(pair.pointCount));
   c.armA = toRow(reference);
   c.armB = toRow(reference - toFloat(world.bodies[pair.bodyB].position - world.bodies[pair.bodyA].position));
+  const float leak = leakOf(step, pair);
   for (int i = 0; i < pair.pointCount; ++i) {
-    c.point[i] = pointRows(world, step, pair, i);
+    c.point[i] = pointRows(world, step, pair, i, leak);
     c.point[i].arm = c.point[i].arm - c.armA;
   }
   return c;

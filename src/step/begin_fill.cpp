@@ -54,14 +54,18 @@ void collectFront(ForestScratch& scratch, const Forest& forest, int32_t node) {
   front.erase(std::unique(front.begin(), front.end()), front.end());
 }
 
-/// Fronts of all nodes whose islands can afford theirs.
+uint32_t mostBlocks(const IslandRange& island) {
+  return std::max(kBlocksAnyway, kBlocksPerBody * (island.end - island.begin));
+}
+
+/// Fronts of all nodes whose islands can afford theirs, in ForestScratch::fronts.
 void findFronts(StepData& step, const BatchRange& batch, Forest& forest) {
   ForestScratch& scratch = step.planting;
+  scratch.fronts.clear();
   scratch.blocks.assign(batch.bodies, 0);
   for (size_t i = forest.nodes.size(); i-- > 0;) {
     TreeNode& node = forest.nodes[i];
-    const IslandRange& island = step.ranges[batch.islandBegin + node.island];
-    const uint32_t most = std::max(kBlocksAnyway, kBlocksPerBody * (island.end - island.begin));
+    const uint32_t most = mostBlocks(step.ranges[batch.islandBegin + node.island]);
     uint32_t& blocks = scratch.blocks[node.island];
     if (scratch.frontOf[i] == kNone || blocks > most) continue;
     collectFront(scratch, forest, static_cast<int32_t>(i));
@@ -69,23 +73,14 @@ void findFronts(StepData& step, const BatchRange& batch, Forest& forest) {
     blocks += size * size;
     if (blocks > most) continue;
     for (uint32_t k = 1; k < size; ++k) addToFront(scratch, scratch.front[0], scratch.front[k]);
-    node.fillBegin = static_cast<uint32_t>(forest.fills.size()), node.fillCount = size;
-    for (const int32_t other : scratch.front) forest.fills.emplace_back().node = other;
+    node.fillBegin = static_cast<uint32_t>(scratch.fronts.size()), node.fillCount = size;
+    scratch.fronts.insert(scratch.fronts.end(), scratch.front.begin(), scratch.front.end());
   }
 }
 
 bool affords(const StepData& step, const BatchRange& batch, uint32_t island) {
-  const IslandRange& range = step.ranges[batch.islandBegin + island];
   return !step.planting.wide[island] &&
-         step.planting.blocks[island] <= std::max(kBlocksAnyway, kBlocksPerBody * (range.end - range.begin));
-}
-
-/// The block of two nodes.
-uint32_t blockOf(Forest& forest, int32_t deeper, int32_t other) {
-  const TreeNode& node = forest.nodes[static_cast<size_t>(deeper)];
-  uint32_t fill = node.fillBegin;
-  while (forest.fills[fill].node != other) ++fill;
-  return fill;
+         step.planting.blocks[island] <= mostBlocks(step.ranges[batch.islandBegin + island]);
 }
 
 void fillPair(const StepData& step, const BatchRange& batch, Forest& forest, const PlannedJoint& joint) {
@@ -98,7 +93,7 @@ void fillPair(const StepData& step, const BatchRange& batch, Forest& forest, con
   const uint32_t tile = joint.scalar ? batch.scalarTile : joint.angular ? batch.fixedTile : batch.ballTile;
   pair.lane = joint.lane - tile * kTile;
   pair.childIsA = a > b, pair.island = joint.island;
-  pair.fill = blockOf(forest, std::max(a, b), std::min(a, b));
+  pair.fill = forest.fillOf(std::max(a, b), std::min(a, b));
   forest.filledPairs.push_back(pair);
 }
 
@@ -110,7 +105,7 @@ void fillLinked(const StepData& step, const BatchRange& batch, Forest& forest, u
       if (joint.row[i] >= batch.bodies || joint.row[j] >= batch.bodies) continue;
       const int32_t a = step.planting.nodeOf[joint.row[i]], b = step.planting.nodeOf[joint.row[j]];
       forest.filledLinks.push_back(
-          {index, a > b ? i : j, a > b ? j : i, joint.island, blockOf(forest, std::max(a, b), std::min(a, b))});
+          {index, a > b ? i : j, a > b ? j : i, joint.island, forest.fillOf(std::max(a, b), std::min(a, b))});
     }
 }
 
@@ -119,12 +114,12 @@ void fillLinked(const StepData& step, const BatchRange& batch, Forest& forest, u
 bool releaseWide(StepData& step, const BatchRange& batch, Forest& forest) {
   ForestScratch& scratch = step.planting;
   listLoops(step, batch, forest);
+  if (scratch.links.empty()) return false;
   findFronts(step, batch, forest);
   bool any = false;
   for (uint32_t n = 0; n < batch.islandCount; ++n)
     if (!affords(step, batch, n)) scratch.wide[n] = any = true;
   for (TreeNode& node : forest.nodes) node.fillCount = 0;
-  forest.fills.clear();
   if (!any) return false;
   for (PlannedJoint& planned : scratch.joints)
     if (scratch.wide[planned.island]) planned.eligible = false;
@@ -141,6 +136,8 @@ void leaveLoops(StepData& step, const BatchRange& batch) {
 void fillForest(StepData& step, const BatchRange& batch, Forest& forest) {
   listLoops(step, batch, forest);
   findFronts(step, batch, forest);
+  forest.fills.resize(step.planting.fronts.size());
+  for (size_t i = 0; i < forest.fills.size(); ++i) forest.fills[i].node = step.planting.fronts[i];
   for (uint32_t n = 0; n < batch.islandCount; ++n)
     if (!affords(step, batch, n)) step.ranges[batch.islandBegin + n].coupled = true;
   for (TreeNode& node : forest.nodes)

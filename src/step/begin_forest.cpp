@@ -16,12 +16,6 @@ void addEdge(ForestScratch& scratch, uint32_t row, uint32_t joint, uint32_t neig
   scratch.first[row] = static_cast<uint32_t>(scratch.edges.size() - 1);
 }
 
-uint32_t islandOfRow(const StepData& step, const BatchRange& batch, uint32_t row) {
-  uint32_t n = 0;
-  while (step.ranges[batch.islandBegin + n].end <= row) ++n;
-  return n;
-}
-
 bool isLinked(JointType type) {
   return type == JointType::Pulley || type == JointType::Coupling || type == JointType::Custom;
 }
@@ -56,11 +50,11 @@ void listJoints(const WorldData& world, StepData& step, BatchRange& batch) {
 }
 
 /// Adds a row's node unless it stands already.
-bool addNode(Forest& forest, ForestScratch& scratch, uint32_t row, int32_t parent, int32_t joint) {
+bool addNode(Forest& forest, ForestScratch& scratch, uint32_t row, uint32_t island, int32_t parent, int32_t joint) {
   if (scratch.nodeOf[row] >= 0) return false;
   scratch.nodeOf[row] = static_cast<int32_t>(forest.nodes.size());
   TreeNode& node = forest.nodes.emplace_back();
-  node.row = row, node.parent = parent, node.joint = joint;
+  node.row = row, node.island = island, node.parent = parent, node.joint = joint;
   if (joint < 0) return true;
   PlannedJoint& planned = scratch.joints[static_cast<size_t>(joint)];
   planned.inTree = true;
@@ -71,10 +65,13 @@ bool addNode(Forest& forest, ForestScratch& scratch, uint32_t row, int32_t paren
 /// Adds all that hang on the nodes from `next` on, level by level.
 void grow(Forest& forest, ForestScratch& scratch, size_t next) {
   for (; next < forest.nodes.size(); ++next)
-    for (uint32_t e = scratch.first[forest.nodes[next].row]; e != kNone; e = scratch.edges[e].next)
-      if (scratch.joints[scratch.edges[e].joint].eligible)
-        addNode(forest, scratch, scratch.edges[e].neighbour, static_cast<int32_t>(next),
-                static_cast<int32_t>(scratch.edges[e].joint));
+    for (uint32_t e = scratch.first[forest.nodes[next].row]; e != kNone; e = scratch.edges[e].next) {
+      const ForestEdge& edge = scratch.edges[e];
+      const PlannedJoint& joint = scratch.joints[edge.joint];
+      if (joint.eligible)
+        addNode(forest, scratch, edge.neighbour, joint.island, static_cast<int32_t>(next),
+                static_cast<int32_t>(edge.joint));
+    }
 }
 
 /// First what hangs on the world, then free trees from their lowest row.
@@ -84,30 +81,32 @@ void orient(Forest& forest, ForestScratch& scratch, uint32_t bodies) {
     const PlannedJoint& joint = scratch.joints[i];
     if (!joint.eligible || (joint.rowA < bodies && joint.rowB < bodies)) continue;
     const uint32_t row = joint.rowA < bodies ? joint.rowA : joint.rowB;
-    if (row < bodies) addNode(forest, scratch, row, -1, static_cast<int32_t>(i));
+    if (row < bodies) addNode(forest, scratch, row, joint.island, -1, static_cast<int32_t>(i));
   }
   grow(forest, scratch, 0);
   for (uint32_t row = 0; row < bodies; ++row) {
-    if (scratch.first[row] == kNone || !scratch.joints[scratch.edges[scratch.first[row]].joint].eligible) continue;
-    if (!addNode(forest, scratch, row, -1, -1)) continue;
+    if (scratch.first[row] == kNone) continue;
+    const PlannedJoint& joint = scratch.joints[scratch.edges[scratch.first[row]].joint];
+    if (!joint.eligible || !addNode(forest, scratch, row, joint.island, -1, -1)) continue;
     grow(forest, scratch, forest.nodes.size() - 1);
   }
 }
 
 /// Bodies that only rows outside of trees hold: nodes of their own, so that the factor can couple them.
 void addLoneNodes(const WorldData& world, StepData& step, BatchRange& batch, Forest& forest) {
-  const auto add = [&](uint32_t row) {
-    if (row < batch.bodies) addNode(forest, step.planting, row, -1, -1);
+  const auto add = [&](uint32_t row, uint32_t island) {
+    if (row < batch.bodies) addNode(forest, step.planting, row, island, -1, -1);
   };
   for (const PlannedJoint& planned : step.planting.joints)
-    if (!planned.inTree && !step.planting.wide[planned.island]) add(planned.rowA), add(planned.rowB);
+    if (!planned.inTree && !step.planting.wide[planned.island])
+      add(planned.rowA, planned.island), add(planned.rowB, planned.island);
   for (uint32_t n = 0; n < batch.islandCount; ++n) {
     const Island& island = step.islands[batch.islandBegin + n];
     if (step.planting.wide[n]) continue;
     for (uint32_t i = 0; i < island.jointCount; ++i) {
       const uint32_t slot = step.islandJoints[island.jointBegin + i];
       if (!isLinked(world.joints[slot].type)) continue;
-      forEachBody(world, slot, [&](uint32_t body) { add(rowInBatch(world, step, batch, body)); });
+      forEachBody(world, slot, [&](uint32_t body) { add(rowInBatch(world, step, batch, body), n); });
     }
   }
 }
@@ -205,10 +204,6 @@ bool hasJoints(const StepData& step, const BatchRange& batch) {
   return std::any_of(first, first + batch.islandCount, [](const Island& island) { return island.jointCount > 0; });
 }
 
-void nameIslands(const StepData& step, const BatchRange& batch, Forest& forest) {
-  for (TreeNode& node : forest.nodes) node.island = islandOfRow(step, batch, node.row);
-}
-
 Forest& emptyForest(StepData& step) {
   if (step.forestCount == step.forests.size()) step.forests.emplace_back();
   step.forests[step.forestCount].clear();
@@ -224,7 +219,6 @@ void plantForest(const WorldData& world, StepData& step, BatchRange& batch) {
   Forest& forest = emptyForest(step);
   step.planting.wide.assign(batch.bodies, 0);  // as many islands at most
   orient(forest, step.planting, batch.bodies);
-  nameIslands(step, batch, forest);
   const bool exact = world.def.primalSolver == PrimalSolver::Krylov;
   if (exact && releaseWide(step, batch, forest)) {
     forest.clear();
@@ -234,7 +228,6 @@ void plantForest(const WorldData& world, StepData& step, BatchRange& batch) {
   if (exact) addLoneNodes(world, step, batch, forest);
   placeJoints(world, step, batch, forest);
   placeOthers(world, step, batch);
-  nameIslands(step, batch, forest);
   for (const TreeNode& node : forest.nodes) step.ranges[batch.islandBegin + node.island].hasTree = true;
   if (!forest.nodes.empty()) batch.forest = step.forestCount++;
   exact ? fillForest(step, batch, forest) : leaveLoops(step, batch);

@@ -30,7 +30,7 @@ float speedAlong(const WorldData& world, uint32_t slot, const Twist<float>& j) {
 }
 
 /// Sum of the bodies' inverse masses.
-float massless(const WorldData& world, const LinkedJoint& joint) {
+float masslessOf(const WorldData& world, const LinkedJoint& joint) {
   float sum = 0;
   forEachBody(world, joint.slot, [&](uint32_t slot) {
     if (isDynamic(world, slot)) sum += 1 / world.bodies[slot].mass;
@@ -57,7 +57,7 @@ void fillPulley(const WorldData& world, const StepData& step, LinkedJoint& joint
   const float beyond = whole - link.max;
   pulley.held = beyond > 0 || !link.slack ? -corrected(step, beyond, world.def.maxDepenetrationSpeed) : -beyond;
   pulley.k = stiffnessInUse(step, w);
-  pulley.load = loadInUse(step, w, massless(world, joint));
+  pulley.load = loadInUse(step, w, masslessOf(world, joint));
   pulley.lambda = data.lambda[0];
 }
 
@@ -82,7 +82,7 @@ void fillCoupling(const WorldData& world, StepData& step, const BatchView& view,
     at.w += inverseMass(world, slot, j[body]);
     at.speed += speedAlong(world, slot, j[body++]);
   });
-  at.chordSpeed = at.speed, at.massless = massless(world, joint);
+  at.chordSpeed = at.speed, at.massless = masslessOf(world, joint);
   at.lock = link.rest - coupling.start, at.force = link.force;
   at.correction = world.def.maxDepenetrationSpeed / world.def.lengthUnit;
   // Its coordinate counts from the step's start.
@@ -110,13 +110,14 @@ void fillCustom(const WorldData& world, const StepData& step, const BatchView& v
   for (int i = 0; i < custom.rows; ++i) custom.held[i] = custom.rho[i] = 0, custom.lambda[i] = data.lambda[i];
   LinkedRows list;
   evaluate(joint, view, list);
+  const float massless = masslessOf(world, joint);
   for (int i = 0; i < custom.rows; ++i) {
     const LinkedRow& row = list.row[i];
     float w = 0;
     for (int b = 0; b < link.bodies; ++b) w += inverseMass(world, data.body[b], row.j[b]);
     custom.rho[i] = stiffnessInUse(step, w);
     if (!(row.upper < rows::kInfinity && row.lower > -rows::kInfinity))
-      custom.rho[i] = rows::stiffnessUnder(custom.rho[i], loadInUse(step, w, massless(world, joint)), data.lambda[i]);
+      custom.rho[i] = rows::stiffnessUnder(custom.rho[i], loadInUse(step, w, massless), data.lambda[i]);
     // One-sided rows that do not push yet may go all the way.
     const bool open = (row.lower == 0 && row.C < 0) || (row.upper == 0 && row.C > 0);
     custom.held[i] = open ? 0 : row.C * step.alpha;

@@ -89,6 +89,7 @@ struct ForestScratch {
   std::vector<uint32_t> frontOf;  ///< by node: its first link; kNone: its parent is all
   std::vector<FrontLink> links;
   std::vector<int32_t> front;    ///< of one node
+  std::vector<int32_t> fronts;   ///< of all, as Forest::fills will stand
   std::vector<uint32_t> blocks;  ///< by island: what its fill costs
   std::vector<uint8_t> wide;     ///< by island: its loops would cost too much, and trees in it be no use
 };
