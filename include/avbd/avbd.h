@@ -18,5 +18,6 @@
 #include <avbd/mover.h>
 #include <avbd/profile.h>
 #include <avbd/query.h>
+#include <avbd/tasks.h>
 #include <avbd/types.h>
 #include <avbd/world.h>

@@ -9,6 +9,7 @@
 #include <avbd/joint.h>
 #include <avbd/profile.h>
 #include <avbd/query.h>
+#include <avbd/tasks.h>
 
 #include <array>
 #include <functional>
@@ -28,7 +29,7 @@ enum class PrimalSolver : uint8_t {
 /// Settings of a world. All have defaults that need no turning.
 struct WorldDef {
   Vec3 gravity{0, -9.81f, 0};  ///< [m/s^2]
-  int workers = 1;             ///< threads that step() may use, >= 1
+  int workers = 1;             ///< threads that step() may use, 1 .. 64. Changes no bit of the result.
   int iterations = 4;          ///< outer iterations of the solver per substep, 1 .. 1000
   int substeps = 1;            ///< 1 .. 1000
   /// Size of a usual thing, in the unit of the positions: 1 where that is the metre. All tolerances scale with it.
@@ -45,7 +46,8 @@ struct WorldDef {
   /// (implicit; eats energy), between: a blend. -1 chooses for each joint and step by its stability number
   /// (docs/method.md).
   float jointArmBlend = -1;
-  int simdWidth = 0;  ///< 1, 4, 8, 16; 0 takes the widest that this processor runs. Changes no bit of the result.
+  int simdWidth = 0;   ///< 1, 4, 8, 16; 0 takes the widest that this processor runs. Changes no bit of the result.
+  TaskSystem tasks{};  ///< the user's own threads, in place of `workers`
 };
 
 /// A simulation. Different worlds may be used by different threads at the same time. One world may be read (every

@@ -1,16 +1,20 @@
 // A batch: some whole islands, laid out for the solver. The unit of work; batches share nothing.
 //
 // Body rows. Each array of body rows holds 8 floats a body, (lin xyz, -, ang xyz, -) or as said. The rows of a batch
-// are its dynamic bodies, island by island, then one row for everything static, then kinematic bodies; rows are padded
-// to a multiple of 16. Pairs name their bodies by row within the batch.
-// Tiles. Constants and multipliers of 16 pairs are the transpose of their family's struct (lane/tile.h). Unused lanes
-// name the static row on both sides and have stiffness 0.
+// are its dynamic bodies, island by island, then one row a chunk for everything static, then kinematic bodies; rows are
+// padded to a multiple of 16. Pairs name their bodies by row within the batch. A large island is cut into chunks of
+// rows, so that several threads can solve it: the sums of a body are those of its chunk first, then those of the seams
+// in the order of their colours, whoever makes them. Each chunk has a static row. Tiles. Constants and multipliers of
+// 16 pairs are the transpose of their family's struct (lane/tile.h). Unused lanes name the static row on both sides and
+// have stiffness 0.
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "avbd/rows/family.h"
 #include "lane/tile.h"
+#include "solve/free_body.h"
 
 namespace avbd {
 
@@ -35,6 +39,23 @@ template <class R>
 struct NodeOp {
   rows::V3<R> lin[4];
   R k;
+};
+
+/// Entries begin .. end - 1.
+struct Slice {
+  uint32_t begin = 0, end = 0;
+};
+
+/// A part of a batch that one thread can solve for: some body rows, from a multiple of 16 to one, and the tiles of the
+/// contacts that touch no dynamic or kinematic body but theirs. Chunks share no row.
+struct Chunk {
+  Slice rows, tiles;
+};
+
+/// Contacts between two chunks. Seams of one colour share no chunk.
+struct Seam {
+  Slice tiles;
+  uint32_t color = 0;
 };
 
 /// Pairs of one family in tiles of 16, with the rows of their bodies.
@@ -88,15 +109,23 @@ struct BatchView {
   const IslandRange* island = nullptr;
 
   // Body rows.
-  float* d = nullptr;              ///< displacement since the start of the step
-  const float* target = nullptr;   ///< y: where the body would go alone
-  const float* mass = nullptr;     ///< (m, I xx yy zz xy xz yz, -) / h^2, I in world axes
-  const float* invMass = nullptr;  ///< (1/m, I^-1 ..., -); 0 for static and kinematic
-  float* diagonal = nullptr;       ///< as mass, with the geometric stiffness of joints
+  const Tile<FreeBody>* body = nullptr;  ///< of 16 rows each
+  Tile<FreeMotion>* free = nullptr;
+  Tile<EndMotion>* end = nullptr;
+  float* d = nullptr;         ///< displacement since the start of the step
+  float* target = nullptr;    ///< y: where the body would go alone
+  float* mass = nullptr;      ///< (m, I xx yy zz xy xz yz, -) / h^2, I in world axes
+  float* invMass = nullptr;   ///< (1/m, I^-1 ..., -); 0 for static and kinematic
+  float* diagonal = nullptr;  ///< as mass, with the geometric stiffness of joints
   float* gradient = nullptr;
   float* hessian = nullptr;             ///< kHessianRow floats a body
   Tile<rows::Sym6>* inverse = nullptr;  ///< of 16 bodies: their inverse blocks
   float *x = nullptr, *r = nullptr, *z = nullptr, *p = nullptr, *q = nullptr;
+  float* step = nullptr;     ///< a float a row: length of a step of its island's search
+  float* product = nullptr;  ///< a float a row: its share of a scalar product
+
+  std::span<const Chunk> chunks;  ///< one, or those of a large island: then it is the batch's only one
+  std::span<const Seam> seams;    ///< by colour
 
   PairTiles<rows::Contact> contacts;
   PairTiles<rows::BallJoint> balls;  ///< those that no tree holds

@@ -68,13 +68,14 @@ class TestBatch {
   std::vector<uint32_t> locked;
   std::vector<uint8_t> locks;
   Forest forest;
-  AlignedVector<float> d, target, mass, invMass, diagonal, gradient, hessian, x, r, z, p, q;
+  AlignedVector<float> d, target, mass, invMass, diagonal, gradient, hessian, x, r, z, p, q, step, product;
 
   TestBatch(uint32_t dynamicBodies, uint32_t kinematicBodies) : bodies_(dynamicBodies) {
     rows_ = (dynamicBodies + 1 + kinematicBodies + kTile - 1) / kTile * kTile;
     for (auto* array : {&d, &target, &mass, &invMass, &diagonal, &gradient, &x, &r, &z, &p, &q})
       array->assign(8 * rows_, 0.0f);
     hessian.assign(kHessianRow * rows_, 0.0f);
+    step.assign(rows_, 0.0f), product.assign(rows_, 0.0f);
     inverse_.resize(rows_ / kTile);
   }
   uint32_t bodies() const { return bodies_; }
@@ -105,7 +106,10 @@ class TestBatch {
     v.diagonal = diagonal.data(), v.gradient = gradient.data(), v.hessian = hessian.data();
     v.inverse = inverse_.data();
     v.x = x.data(), v.r = r.data(), v.z = z.data(), v.p = p.data(), v.q = q.data();
+    v.step = step.data(), v.product = product.data();
     v.contacts = layOut(contacts, contactLanes_);
+    chunk_ = {{0, rows_}, {0, v.contacts.tiles}};
+    v.chunks = {&chunk_, 1};
     v.balls = layOut(balls, ballLanes_);
     v.fixed = layOut(fixed, fixedLanes_);
     v.full = layOut(full, fullLanes_);
@@ -166,6 +170,7 @@ class TestBatch {
   }
 
   uint32_t bodies_, rows_;
+  Chunk chunk_;
   AlignedVector<Tile<rows::Sym6>> inverse_;
   Lanes<rows::Contact> contactLanes_;
   Lanes<rows::BallJoint> ballLanes_;

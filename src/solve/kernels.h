@@ -13,10 +13,10 @@ constexpr int N = AVBD_LANES;
 using R = lane::Real<N>;
 using lane::gatherTwist;
 
-/// Calls f(tile, lane offset) for all lanes of a number of tiles.
+/// Calls f(tile, lane offset) for all lanes of some tiles.
 template <class F>
-AVBD_INLINE void forLanes(uint32_t tiles, F&& f) {
-  for (uint32_t t = 0; t < tiles; ++t)
+AVBD_INLINE void forLanes(Slice tiles, F&& f) {
+  for (uint32_t t = tiles.begin; t < tiles.end; ++t)
     for (int o = 0; o < kTile; o += N) f(t, o);
 }
 
@@ -76,16 +76,20 @@ AVBD_INLINE void prepareFull(FullContact<R>& c, const InverseMass& a, const Inve
   c.kRolling = floorStiffness(c.rolling, max(along(c.contact.t1), along(c.contact.t2)), factor);
 }
 
-void prepareContacts(const BatchView& v, const SolveSettings& s) {
+void prepareContacts(const BatchView& v, const SolveSettings& s, Slice tiles) {
   const float factor = s.floorFactor / (s.h * s.h);
-  forLanes(v.contacts.tiles, [&](uint32_t t, int o) {
+  forLanes(tiles, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     Contact<R> c = v.contacts.tile[t].load<N>(o);
     prepareContact(c, gatherInverseMass(v.invMass, v.contacts.a + at), gatherInverseMass(v.invMass, v.contacts.b + at),
                    factor);
     v.contacts.tile[t].store<N>(o, c);
   });
-  forLanes(v.full.tiles, [&](uint32_t t, int o) {
+}
+
+void prepareOthers(const BatchView& v, const SolveSettings& s) {
+  const float factor = s.floorFactor / (s.h * s.h);
+  forLanes({0, v.full.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     FullContact<R> c = v.full.tile[t].load<N>(o);
     prepareFull(c, gatherInverseMass(v.invMass, v.full.a + at), gatherInverseMass(v.invMass, v.full.b + at), factor);
@@ -105,8 +109,9 @@ AVBD_INLINE void addToDiagonal(const BatchView& v, const uint32_t* a, const Sym3
 
 /// Stamps all pairs of one family; with `dual` moves their multipliers first (nothing has moved in between).
 template <template <class> class Family, bool kJoint>
-void stampPairs(const BatchView& v, const PairTiles<Family>& tiles, Tile<PairOp>* op, float leak, bool dual) {
-  forLanes(tiles.tiles, [&](uint32_t t, int o) {
+void stampPairs(const BatchView& v, const PairTiles<Family>& tiles, Slice range, Tile<PairOp>* op, float leak,
+                bool dual) {
+  forLanes(range, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     const uint32_t *a = tiles.a + at, *b = tiles.b + at;
     Family<R> pair = tiles.tile[t].template load<N>(o);
@@ -135,7 +140,7 @@ void stampPairs(const BatchView& v, const PairTiles<Family>& tiles, Tile<PairOp>
 }
 
 void stampFull(const BatchView& v, float leak, bool dual) {
-  forLanes(v.full.tiles, [&](uint32_t t, int o) {
+  forLanes({0, v.full.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     const uint32_t *a = v.full.a + at, *b = v.full.b + at;
     FullContact<R> pair = v.full.tile[t].load<N>(o);
@@ -157,8 +162,8 @@ void stampFull(const BatchView& v, float leak, bool dual) {
 }
 
 template <template <class> class Family>
-void dualPairs(const BatchView& v, const PairTiles<Family>& tiles, float leak) {
-  forLanes(tiles.tiles, [&](uint32_t t, int o) {
+void dualPairs(const BatchView& v, const PairTiles<Family>& tiles, Slice range, float leak) {
+  forLanes(range, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     Family<R> pair = tiles.tile[t].template load<N>(o);
     DualSink<R> sink{splat<R>(leak)};
@@ -184,7 +189,7 @@ AVBD_INLINE void scatterNodes(float* array, int stride, const TetTiles& tets, ui
 }
 
 void stampTets(const BatchView& v, bool dual) {
-  forLanes(v.tets.tiles, [&](uint32_t t, int o) {
+  forLanes({0, v.tets.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     TetVolume<R> tet = v.tets.tile[t].load<N>(o);
     V3<R> d[4];
@@ -213,7 +218,7 @@ void stampTets(const BatchView& v, bool dual) {
 }
 
 void dualTets(const BatchView& v) {
-  forLanes(v.tets.tiles, [&](uint32_t t, int o) {
+  forLanes({0, v.tets.tiles}, [&](uint32_t t, int o) {
     TetVolume<R> tet = v.tets.tile[t].load<N>(o);
     V3<R> d[4];
     gatherNodes(v, v.d, t * kTile + static_cast<uint32_t>(o), d);
@@ -223,67 +228,34 @@ void dualTets(const BatchView& v) {
   });
 }
 
-void stampRows(const BatchView& v, const SolveSettings& s, bool dual) {
-  Tile<PairOp>* op = v.op;
-  stampPairs<Contact, false>(v, v.contacts, op, s.contactLeak, dual);
-  op += v.contacts.tiles;
-  stampPairs<BallJoint, true>(v, v.balls, op, s.jointLeak, dual);
+void stampContacts(const BatchView& v, const SolveSettings& s, bool dual, Slice tiles) {
+  stampPairs<Contact, false>(v, v.contacts, tiles, v.op, s.contactLeak, dual);
+}
+
+void stampOthers(const BatchView& v, const SolveSettings& s, bool dual) {
+  Tile<PairOp>* op = v.op + v.contacts.tiles;
+  stampPairs<BallJoint, true>(v, v.balls, {0, v.balls.tiles}, op, s.jointLeak, dual);
   op += v.balls.tiles;
-  stampPairs<FixedJoint, true>(v, v.fixed, op, s.jointLeak, dual);
+  stampPairs<FixedJoint, true>(v, v.fixed, {0, v.fixed.tiles}, op, s.jointLeak, dual);
   stampFull(v, s.contactLeak, dual);
   stampTets(v, dual);
 }
 
-void updateRows(const BatchView& v, const SolveSettings& s) {
-  dualPairs(v, v.contacts, s.contactLeak);
-  dualPairs(v, v.balls, 1);
-  dualPairs(v, v.fixed, 1);
-  dualPairs(v, v.full, s.contactLeak);
+void updateContacts(const BatchView& v, const SolveSettings& s, Slice tiles) {
+  dualPairs(v, v.contacts, tiles, s.contactLeak);
+}
+
+void updateOthers(const BatchView& v, const SolveSettings& s) {
+  dualPairs(v, v.balls, {0, v.balls.tiles}, 1);
+  dualPairs(v, v.fixed, {0, v.fixed.tiles}, 1);
+  dualPairs(v, v.full, {0, v.full.tiles}, s.contactLeak);
   dualTets(v);
 }
 
-// ---- Body rows -------------------------------------------------------------------------------------------------
-
-struct MassRow {
-  R linear;
-  Sym3<R> angular;
-};
-
-AVBD_INLINE MassRow loadMass(const float* row) {
-  R c[8];
-  lane::loadRows<N>(row, 8, c);
-  return {c[0], {c[1], c[2], c[3], c[4], c[5], c[6]}};
-}
-
-void beginIteration(const BatchView& v) {
-  for (uint32_t i = 0; i < v.rows; i += N) {
-    const MassRow m = loadMass(v.mass + 8 * i);
-    const Twist<R> e = lane::loadTwists<N>(v.d + 8 * i) - lane::loadTwists<N>(v.target + 8 * i);
-    lane::storeTwists<N>(v.gradient + 8 * i, Twist<R>{e.lin * m.linear, m.angular * e.ang});
-    const R o = zero<R>();
-    const R c[8] = {m.linear, m.angular.xx, m.angular.yy, m.angular.zz, m.angular.xy, m.angular.xz, m.angular.yz, o};
-    lane::storeRows<N>(v.diagonal + 8 * i, 8, c);
-    const Sym6<R> block{{m.linear, m.linear, m.linear, o, o, o}, {{o, o, o}, {o, o, o}, {o, o, o}}, m.angular};
-    lane::storeSym6<N>(v.hessian + kHessianRow * i, block);
-  }
-}
-
-void factor(const BatchView& v) {
-  for (uint32_t i = 0; i < v.rows; i += N) {
-    const Sym6<R> inv = inverse(lane::loadSym6<N>(v.hessian + kHessianRow * i));
-    v.inverse[i / kTile].store<N>(static_cast<int>(i % kTile), inv);
-  }
-}
-
-void precondition(const BatchView& v) {
-  for (uint32_t i = 0; i < v.rows; i += N) {
-    const Sym6<R> inv = v.inverse[i / kTile].load<N>(static_cast<int>(i % kTile));
-    lane::storeTwists<N>(v.z + 8 * i, inv * lane::loadTwists<N>(v.r + 8 * i));
-  }
-}
+// ---- Products with H -------------------------------------------------------------------------------------------
 
 void multiplyPairs(const BatchView& v, const uint32_t* rowA, const uint32_t* rowB, const Tile<PairOp>* op,
-                   uint32_t tiles) {
+                   Slice tiles) {
   forLanes(tiles, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     const PairOp<R> pair = op[t].load<N>(o);
@@ -295,7 +267,7 @@ void multiplyPairs(const BatchView& v, const uint32_t* rowA, const uint32_t* row
 }
 
 void multiplyFull(const BatchView& v) {
-  forLanes(v.full.tiles, [&](uint32_t t, int o) {
+  forLanes({0, v.full.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     const ScaledOp<R> op = v.fullOp[t].load<N>(o);
     const PairOp<R>& pair = op.pair;
@@ -308,7 +280,7 @@ void multiplyFull(const BatchView& v) {
 }
 
 void multiplyTets(const BatchView& v) {
-  forLanes(v.tets.tiles, [&](uint32_t t, int o) {
+  forLanes({0, v.tets.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     const NodeOp<R> op = v.tets.op[t].load<N>(o);
     V3<R> p[4];
@@ -325,62 +297,54 @@ void multiplyTets(const BatchView& v) {
   });
 }
 
-void multiply(const BatchView& v) {
-  for (uint32_t i = 0; i < v.rows; i += N) {
-    const MassRow m = loadMass(v.diagonal + 8 * i);
-    const Twist<R> p = lane::loadTwists<N>(v.p + 8 * i);
-    lane::storeTwists<N>(v.q + 8 * i, Twist<R>{p.lin * m.linear, m.angular * p.ang});
-  }
-  const Tile<PairOp>* op = v.op;
-  multiplyPairs(v, v.contacts.a, v.contacts.b, op, v.contacts.tiles);
-  op += v.contacts.tiles;
-  multiplyPairs(v, v.balls.a, v.balls.b, op, v.balls.tiles);
+void multiplyContacts(const BatchView& v, Slice tiles) { multiplyPairs(v, v.contacts.a, v.contacts.b, v.op, tiles); }
+
+void multiplyOthers(const BatchView& v) {
+  const Tile<PairOp>* op = v.op + v.contacts.tiles;
+  multiplyPairs(v, v.balls.a, v.balls.b, op, {0, v.balls.tiles});
   op += v.balls.tiles;
-  multiplyPairs(v, v.fixed.a, v.fixed.b, op, v.fixed.tiles);
+  multiplyPairs(v, v.fixed.a, v.fixed.b, op, {0, v.fixed.tiles});
   op += v.fixed.tiles;
-  multiplyPairs(v, v.scalar.a, v.scalar.b, op, v.scalar.tiles);
+  multiplyPairs(v, v.scalar.a, v.scalar.b, op, {0, v.scalar.tiles});
   multiplyFull(v);
   multiplyTets(v);
-}
-
-// ---- Vectors ---------------------------------------------------------------------------------------------------
-
-/// Sixteen sums side by side, two rows at a time, then halved: the same order at every width.
-float dotRows(const float* a, const float* b, uint32_t begin, uint32_t end) {
-  alignas(64) float sum[16] = {};
-  uint32_t i = 8 * begin;
-  for (; i + 16 <= 8 * end; i += 16)
-    for (int k = 0; k < 16; k += N)
-      lane::store(sum + k,
-                  lane::load<R>(sum + k) + lane::loadUnaligned<R>(a + i + k) * lane::loadUnaligned<R>(b + i + k));
-  for (int k = 0; i < 8 * end; ++i, ++k) sum[k] += a[i] * b[i];
-  for (int half = 8; half > 0; half /= 2)
-    for (int k = 0; k < half; ++k) sum[k] += sum[k + half];
-  return sum[0];
-}
-
-AVBD_INLINE constexpr uint32_t step() { return N < 8 ? N : 8; }
-using Row = lane::Real<(N < 8 ? N : 8)>;
-
-void addScaled(float* y, const float* x, float s, uint32_t begin, uint32_t end) {
-  for (uint32_t i = 8 * begin; i < 8 * end; i += step())
-    lane::storeUnaligned(y + i, lane::loadUnaligned<Row>(y + i) + splat<Row>(s) * lane::loadUnaligned<Row>(x + i));
-}
-
-void scaleAdd(float* y, const float* x, float s, uint32_t begin, uint32_t end) {
-  for (uint32_t i = 8 * begin; i < 8 * end; i += step())
-    lane::storeUnaligned(y + i, lane::loadUnaligned<Row>(x + i) + splat<Row>(s) * lane::loadUnaligned<Row>(y + i));
 }
 
 }  // namespace
 }  // namespace avbd::AVBD_LANES_NAMESPACE
 
+#include "solve/motion_kernels.h"
+#include "solve/row_kernels.h"
 #include "solve/sweep_kernels.h"
 
 namespace avbd::AVBD_LANES_NAMESPACE {
 
 extern const Backend kBackend;
-const Backend kBackend = {N,        prepareContacts, beginIteration, stampRows, updateRows,   factor,     precondition,
-                          multiply, dotRows,         addScaled,      scaleAdd,  stageRecords, stampColor, solveColor};
+const Backend kBackend = {N,
+                          prepareContacts,
+                          prepareOthers,
+                          stampContacts,
+                          stampOthers,
+                          updateContacts,
+                          updateOthers,
+                          massRows,
+                          freeMotions,
+                          endMotions,
+                          beginRows,
+                          factor,
+                          beginSearch,
+                          turnAndMultiply,
+                          multiplyRows,
+                          multiplyContacts,
+                          multiplyOthers,
+                          precondition,
+                          dotRows,
+                          advance,
+                          advanceAndPrecondition,
+                          moveRows,
+                          sum,
+                          stageRecords,
+                          stampColor,
+                          solveColor};
 
 }  // namespace avbd::AVBD_LANES_NAMESPACE

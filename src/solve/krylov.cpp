@@ -12,6 +12,7 @@
 #include "solve/body_rows.h"
 #include "solve/linked_joint.h"
 #include "solve/locks.h"
+#include "solve/parts.h"
 #include "solve/scalar_joint.h"
 
 namespace avbd {
@@ -33,51 +34,78 @@ bool any(const std::vector<uint8_t>& islands) { return std::find(islands.begin()
 
 class Krylov {
  public:
-  Krylov(const BatchView& view, const Backend& backend, Forest* forest, KrylovScratch& scratch)
-      : v_(view), k_(backend), forest_(forest), s_(scratch) {
+  Krylov(const BatchView& view, const KrylovTools& tools, Forest* forest, KrylovScratch& scratch)
+      : v_(view), k_(tools.backend), parts_(view, tools.jobs), forest_(forest), s_(scratch) {
     s_.rz.assign(v_.islands, 0);
     s_.limit.assign(v_.islands, 0);
+    s_.step.assign(v_.islands, 0);
     s_.active = s_.unsolved;
   }
 
+  /// The residual r and all else of the search is at its start; of islands without trees z and products too.
   void solve(int iterations) {
     begin();
     for (int i = 0; i < iterations && any(s_.active); ++i) {
-      multiply();
-      for (uint32_t n = 0; n < v_.islands; ++n) advance(n);
-      if (i + 1 == iterations) break;
-      precondition(false);
-      for (uint32_t n = 0; n < v_.islands; ++n) turn(n);
+      parts_.chunks([&](const Chunk& chunk) {
+        spread(chunk.rows);
+        k_.turnAndMultiply(v_, chunk.rows);
+        k_.multiplyContacts(v_, chunk.tiles);
+      });
+      multiplyAcross();
+      parts_.chunks([&](const Chunk& chunk) { k_.dotRows(v_, v_.p, v_.q, chunk.rows); });
+      for (uint32_t n = 0; n < v_.islands; ++n) chooseLength(n);
+      const bool last = i + 1 == iterations;
+      parts_.chunks([&](const Chunk& chunk) {
+        spread(chunk.rows);
+        if (last || forest_)
+          k_.advance(v_, chunk.rows);
+        else
+          k_.advanceAndPrecondition(v_, chunk.rows);
+      });
+      if (last) break;
+      if (forest_) precondition(false);
+      for (uint32_t n = 0; n < v_.islands; ++n) chooseTurn(n);
     }
   }
 
  private:
-  void multiply() {
-    k_.multiply(v_);
+  /// A step of each island's to its rows.
+  void spread(Slice rows) {
+    if (v_.islands == 1) {
+      std::fill(v_.step + rows.begin, v_.step + std::min(rows.end, v_.bodies), s_.step[0]);
+      return;
+    }
+    for (uint32_t n = 0; n < v_.islands; ++n)
+      std::fill(v_.step + v_.island[n].begin, v_.step + v_.island[n].end, s_.step[n]);
+  }
+
+  /// What couples chunks.
+  void multiplyAcross() {
+    parts_.seams([&](Slice tiles) { k_.multiplyContacts(v_, tiles); });
+    k_.multiplyOthers(v_);
     multiplyLinked(v_, s_.active.data());
     clearLocked(v_, v_.q);
   }
 
   void precondition(bool violated) {
-    if (!isForest(v_, forest_)) k_.precondition(v_);
-    if (forest_) forest_->solve(v_, s_.active.data(), violated);
+    if (!isForest(v_, forest_)) parts_.chunks([&](const Chunk& chunk) { k_.precondition(v_, chunk.rows); });
+    forest_->solve(v_, s_.active.data(), violated);
+    parts_.chunks([&](const Chunk& chunk) { k_.dotRows(v_, v_.r, v_.z, chunk.rows); });
   }
 
+  float sum(uint32_t n) const { return k_.sum(v_.product, v_.island[n].begin, v_.island[n].end); }
+
   void begin() {
-    for (uint32_t i = 0; i < 8 * v_.rows; ++i) {
-      v_.x[i] = v_.p[i] = v_.z[i] = 0;
-      v_.r[i] = i < 8 * v_.bodies ? -v_.gradient[i] : 0.0f;
+    if (forest_) {
+      meetViolations();
+      if (!any(s_.active)) return;
+      precondition(false);
     }
-    if (forest_) meetViolations();
-    if (!any(s_.active)) return;
-    precondition(false);
     for (uint32_t n = 0; n < v_.islands; ++n) {
       if (!s_.active[n]) continue;
-      const IslandRange& island = v_.island[n];
-      s_.rz[n] = k_.dot(v_.r, v_.z, island.begin, island.end);
+      s_.rz[n] = sum(n);
       s_.limit[n] = kRelativeResidual * s_.rz[n];
       s_.active[n] = s_.rz[n] > 0;
-      if (s_.active[n]) k_.scaleAdd(v_.p, v_.z, 0, island.begin, island.end);
     }
   }
 
@@ -87,43 +115,48 @@ class Krylov {
     for (uint32_t n = 0; n < v_.islands; ++n) {
       const IslandRange& island = v_.island[n];
       if (!island.hasTree || !s_.active[n]) continue;
-      k_.scaleAdd(v_.p, v_.z, 0, island.begin, island.end);
-      k_.scaleAdd(v_.x, v_.z, 0, island.begin, island.end);
+      std::copy(v_.z + 8 * island.begin, v_.z + 8 * island.end, v_.p + 8 * island.begin);
+      std::copy(v_.z + 8 * island.begin, v_.z + 8 * island.end, v_.x + 8 * island.begin);
       if (!island.coupled) s_.active[n] = 0;
     }
     if (!any(s_.active)) return;
-    multiply();
-    for (uint32_t n = 0; n < v_.islands; ++n)
-      if (v_.island[n].hasTree && s_.active[n]) k_.addScaled(v_.r, v_.q, -1, v_.island[n].begin, v_.island[n].end);
-  }
-
-  void advance(uint32_t n) {
-    if (!s_.active[n]) return;
-    const IslandRange& island = v_.island[n];
-    const float pq = k_.dot(v_.p, v_.q, island.begin, island.end);
-    if (!(pq > 0)) {
-      s_.active[n] = 0;
-      return;
+    parts_.chunks([&](const Chunk& chunk) {
+      k_.multiplyRows(v_, chunk.rows);
+      k_.multiplyContacts(v_, chunk.tiles);
+    });
+    multiplyAcross();
+    for (uint32_t n = 0; n < v_.islands; ++n) {
+      const IslandRange& island = v_.island[n];
+      if (!island.hasTree || !s_.active[n]) continue;
+      for (uint32_t i = 8 * island.begin; i < 8 * island.end; ++i) v_.r[i] -= v_.q[i];
     }
-    const float a = s_.rz[n] / pq;
-    k_.addScaled(v_.x, v_.p, a, island.begin, island.end);
-    k_.addScaled(v_.r, v_.q, -a, island.begin, island.end);
   }
 
-  void turn(uint32_t n) {
+  void chooseLength(uint32_t n) {
+    s_.step[n] = 0;
     if (!s_.active[n]) return;
-    const IslandRange& island = v_.island[n];
-    const float rz = k_.dot(v_.r, v_.z, island.begin, island.end);
+    const float pq = sum(n);
+    if (pq > 0)
+      s_.step[n] = s_.rz[n] / pq;
+    else
+      s_.active[n] = 0;
+  }
+
+  void chooseTurn(uint32_t n) {
+    s_.step[n] = 0;
+    if (!s_.active[n]) return;
+    const float rz = sum(n);
     if (!(rz > s_.limit[n])) {
       s_.active[n] = 0;
       return;
     }
-    k_.scaleAdd(v_.p, v_.z, rz / s_.rz[n], island.begin, island.end);
+    s_.step[n] = rz / s_.rz[n];
     s_.rz[n] = rz;
   }
 
   const BatchView& v_;
   const Backend& k_;
+  const Parts parts_;
   Forest* forest_;
   KrylovScratch& s_;
 };
@@ -186,56 +219,57 @@ namespace {
 /// iteration is shortened, its translation with it, since most of that is the turn's.
 constexpr float kMostTurn = 1;  ///< [rad] an iteration
 
-void boundTurns(const BatchView& view) {
-  for (uint32_t i = 0; i < view.bodies; ++i) {
-    float* x = view.x + 8 * i;
-    const float turn = x[4] * x[4] + x[5] * x[5] + x[6] * x[6];
-    if (!(turn > kMostTurn * kMostTurn)) continue;
-    const float share = kMostTurn / rows::sqrt(turn);
-    for (int k = 0; k < 8; ++k) x[k] *= share;
-  }
-}
-
-}  // namespace
-
-namespace {
-
-void iterate(const BatchView& view, const Backend& backend, const SolveSettings& settings, Forest* forest, Phase phase,
-             KrylovScratch& scratch) {
-  const bool dual = phase != Phase::First;
-  if (phase == Phase::Newton) {
-    moveMultipliers(view, view.balls, settings.jointLeak, scratch.unsolved.data());
-    moveMultipliers(view, view.fixed, settings.jointLeak, scratch.unsolved.data());
-  }
-  backend.beginIteration(view);
-  backend.stampRows(view, settings, phase == Phase::Outer);
+/// Gradient, Hessian and its blocks' inverses.
+void stamp(const BatchView& view, const KrylovTools& tools, const SolveSettings& settings, Forest* forest, Phase phase,
+           KrylovScratch& scratch) {
+  const Backend& k = tools.backend;
+  const Parts parts(view, tools.jobs);
+  const bool dual = phase != Phase::First, outer = phase == Phase::Outer;
+  parts.chunks([&](const Chunk& chunk) {
+    k.beginRows(view, chunk.rows);
+    k.stampContacts(view, settings, outer, chunk.tiles);
+  });
+  parts.seams([&](Slice tiles) { k.stampContacts(view, settings, outer, tiles); });
+  k.stampOthers(view, settings, outer);
   stampScalar(view, settings.jointLeak, dual, scratch.unsolved.data());
   stampLinked(view, dual ? settings.jointLeak : 1, scratch.unsolved.data());
   if (forest) forest->stamp(view, scratch.unsolved.data());
   if (view.lockedCount) applyLocks(view);
-  if (!isForest(view, forest)) backend.factor(view);
+  parts.chunks([&](const Chunk& chunk) {
+    if (!isForest(view, forest)) k.factor(view, chunk.rows);
+    k.beginSearch(view, chunk.rows);
+    if (!forest) k.precondition(view, chunk.rows);
+  });
   if (forest) forest->factor(view, scratch.unsolved.data());
-  Krylov(view, backend, forest, scratch).solve(settings.krylovIterations);
-  boundTurns(view);
-  backend.addScaled(view.d, view.x, 1, 0, view.bodies);
+}
+
+void iterate(const BatchView& view, const KrylovTools& tools, const SolveSettings& settings, Forest* forest,
+             Phase phase, KrylovScratch& scratch) {
+  if (phase == Phase::Newton) {
+    moveMultipliers(view, view.balls, settings.jointLeak, scratch.unsolved.data());
+    moveMultipliers(view, view.fixed, settings.jointLeak, scratch.unsolved.data());
+  }
+  stamp(view, tools, settings, forest, phase, scratch);
+  Krylov(view, tools, forest, scratch).solve(settings.krylovIterations);
+  Parts(view, tools.jobs).chunks([&](const Chunk& chunk) { tools.backend.moveRows(view, kMostTurn, chunk.rows); });
   takeLinkedForces(view, scratch.unsolved.data());
   if (forest) forest->updateMultipliers(scratch.unsolved.data());
 }
 
 }  // namespace
 
-void solveKrylov(const BatchView& view, const Backend& backend, const SolveSettings& settings, Forest* forest,
+void solveKrylov(const BatchView& view, const KrylovTools& tools, const SolveSettings& settings, Forest* forest,
                  KrylovScratch& scratch) {
   scratch.unsolved.assign(view.islands, 1);
   for (int i = 0; i < settings.iterations; ++i) {
     const Phase phase = i > 0 ? Phase::Outer : Phase::First;
-    iterate(view, backend, settings, forest, phase, scratch);
+    iterate(view, tools, settings, forest, phase, scratch);
     retireSettled(view, phase, scratch);
   }
   if (!forest) return;
   retireCoupled(view, scratch);
   for (int i = settings.iterations; i < settings.newtonFactor * settings.iterations && any(scratch.unsolved); ++i) {
-    iterate(view, backend, settings, forest, Phase::Newton, scratch);
+    iterate(view, tools, settings, forest, Phase::Newton, scratch);
     retireSettled(view, Phase::Newton, scratch);
   }
 }

@@ -1,6 +1,7 @@
 // Primal solver: conjugate gradients over each island of a batch, preconditioned by exact blocks and exact trees.
 #pragma once
 
+#include "base/jobs.h"
 #include "solve/backend.h"
 #include "solve/tree.h"
 
@@ -8,13 +9,19 @@ namespace avbd {
 
 /// What one batch is solved with; memory is kept between steps.
 struct KrylovScratch {
-  std::vector<float> rz, limit;
+  std::vector<float> rz, limit, step;
   std::vector<uint8_t> active;    ///< islands that still iterate within an outer iteration
   std::vector<uint8_t> unsolved;  ///< islands that outer iterations still move
 };
 
+/// What a batch is solved by.
+struct KrylovTools {
+  const Backend& backend;
+  Jobs* jobs = nullptr;  ///< null: the calling thread does all
+};
+
 /// Runs all outer iterations: d and the multipliers of the batch move to the end of the step. `forest` may be null.
-void solveKrylov(const BatchView& view, const Backend& backend, const SolveSettings& settings, Forest* forest,
+void solveKrylov(const BatchView& view, const KrylovTools& tools, const SolveSettings& settings, Forest* forest,
                  KrylovScratch& scratch);
 
 }  // namespace avbd

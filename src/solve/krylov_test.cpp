@@ -58,7 +58,7 @@ void addIsland(TestBatch& batch, uint32_t first, const IslandCase& c, Random& ra
 
 void solve(TestBatch& batch, int width, const SolveSettings& s) {
   KrylovScratch scratch;
-  solveKrylov(batch.view(), backend(width), s, batch.forest.nodes.empty() ? nullptr : &batch.forest, scratch);
+  solveKrylov(batch.view(), {backend(width)}, s, batch.forest.nodes.empty() ? nullptr : &batch.forest, scratch);
 }
 
 void expectDense(const TestBatch& before, const TestBatch& after, double tolerance) {
@@ -147,7 +147,7 @@ TEST(Krylov, ContactFloorsFollowTheMassThatTheyFeel) {
     rows::Contact<float> c = RandomRows<rows::Contact>::any(random);
     for (int i = 0; i < 4; ++i) c.point[i].floorN = c.point[i].floorT = i < 3 ? 1.0f : 0.0f;
     batch.contacts = {{0, 1, c}, {batch.staticRow(), 1, c}, {batch.staticRow(), batch.kinematicRow(0), c}};
-    backend(4).prepareContacts(batch.view(), settings(4, 8));
+    backend(4).prepareContacts(batch.view(), settings(4, 8), {0, 1});
     const auto inverseMass = [&](uint32_t row, V3<float> arm, V3<float> along) {
       const float* m = batch.invMass.data() + 8 * row;
       const V3<float> a = cross(arm, along);

@@ -66,8 +66,8 @@ TEST_P(Locked, AxesGetNoPart) {
   clearLocked(view, view.r);
   for (const int width : {1, 4, 8, 16}) {
     if (!laneWidthRuns(width)) continue;
-    backend(width).factor(view);
-    backend(width).precondition(view);
+    backend(width).factor(view, {0, view.rows});
+    backend(width).precondition(view, {0, view.rows});
     for (size_t k = 0; k < 6; ++k) {
       EXPECT_EQ(batch.z[rowEntry(kRow, k)] == 0, isLocked(k)) << k;
       EXPECT_EQ(batch.r[rowEntry(kRow, k)] == 0, isLocked(k)) << k;

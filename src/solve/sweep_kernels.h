@@ -27,7 +27,7 @@ struct Record {
 /// Copies the pairs of one family to its records; with `dual` moves their multipliers first.
 template <template <class> class Family>
 void stagePairs(const BatchView& v, const PairTiles<Family>& tiles, const SideView& sides, float leak, bool dual) {
-  forLanes(tiles.tiles, [&](uint32_t t, int o) {
+  forLanes({0, tiles.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     Record<Family> record;
     record.value() = tiles.tile[t].template load<N>(o);
@@ -42,7 +42,7 @@ void stagePairs(const BatchView& v, const PairTiles<Family>& tiles, const SideVi
 
 void stageTets(const BatchView& v, const SideView& sides, bool dual) {
   if (dual) dualTets(v);
-  forLanes(v.tets.tiles, [&](uint32_t t, int o) {
+  forLanes({0, v.tets.tiles}, [&](uint32_t t, int o) {
     Record<TetVolume> record;
     record.value() = v.tets.tile[t].load<N>(o);
     record.store(sides.records, t * kTile + static_cast<uint32_t>(o));

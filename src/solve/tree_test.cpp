@@ -52,8 +52,10 @@ void build(TestBatch& batch, const TreeCase& c, Random& random) {
 /// Stamps and factors, as an outer iteration does.
 void prepare(TestBatch& batch, const BatchView& view) {
   const Backend& kernels = backend(4);
-  kernels.beginIteration(view);
-  kernels.stampRows(view, SolveSettings{.h = TestBatch::kStep}, false);
+  kernels.beginRows(view, {0, view.rows});
+  const SolveSettings settings{.h = TestBatch::kStep};
+  kernels.stampContacts(view, settings, false, {0, view.contacts.tiles});
+  kernels.stampOthers(view, settings, false);
   batch.forest.stamp(view, kAll);
   if (view.lockedCount) applyLocks(view);
   batch.forest.factor(view, kAll);

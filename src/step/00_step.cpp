@@ -1,6 +1,7 @@
 // The whole frame on one page.
 #include <chrono>
 
+#include "base/float_mode.h"
 #include "step/break_joints.h"
 #include "step/contacts.h"
 #include "step/publish_events.h"
@@ -62,6 +63,9 @@ void restore(WorldData& world, StepData& step) {
 
 void Stepper::step(WorldData& world, float dt) {
   StepData& step = *data_;
+  const FloatMode mode;
+  if (!jobs_) jobs_ = std::make_unique<Jobs>(world.def.workers, world.def.tasks);
+  step.jobs = jobs_.get();
   world.report.seconds = {};
   if (world.def.substeps > 1) {
     step.bodiesBefore = world.bodies;
@@ -82,6 +86,7 @@ void Stepper::step(WorldData& world, float dt) {
   if (world.breakable > 0) breakJoints(world);
   world.time += dt;
   ++world.report.step;
+  jobs_->throwFailure();
 }
 
 }  // namespace avbd

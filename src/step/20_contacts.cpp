@@ -64,12 +64,24 @@ void count(StepReport& report, const PairData* pairs, size_t size) {
   }
 }
 
+bool isConvexPair(const PairData& pair) { return !pair.isTrigger && !pair.hasSurface; }
+
+/// Manifolds that touch nothing but their pair. Between substeps forces are summed up in a list of the world's.
+void findManifolds(WorldData& world, StepData& step) {
+  if (step.substep > 0) return;
+  step.jobs->forRange(static_cast<uint32_t>(world.pairs.size()), 64, [&](uint32_t begin, uint32_t end, int) {
+    for (uint32_t i = begin; i < end; ++i)
+      if (isConvexPair(world.pairs[i])) findManifold(world, step, world.pairs[i]);
+  });
+}
+
 }  // namespace
 
 void findContacts(WorldData& world, StepData& step) {
   step.overflow.clear();
   step.changes.clear();
   world.report.contacts = world.report.points = 0;
+  findManifolds(world, step);
   for (size_t i = 0, end; i < world.pairs.size(); i = end) {
     PairData& pair = world.pairs[i];
     end = i + 1;
@@ -78,7 +90,7 @@ void findContacts(WorldData& world, StepData& step) {
       pair.touching = pair.touching || overlaps(world, step, pair);
     else if (pair.hasSurface)
       findPatches(world, step, i, end = endOfRun(world, i));
-    else
+    else if (step.substep > 0)
       findManifold(world, step, pair);
     if (pair.isTrigger ? pair.touching != pair.wasTouching : pair.wasTouching && !anyPoints(pair, end - i))
       step.touchChanges.push_back(pair.key());

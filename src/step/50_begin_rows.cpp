@@ -6,9 +6,14 @@ namespace avbd {
 void beginRows(WorldData& world, StepData& step) {
   layOutBatches(world, step);
   fillBodies(world, step);
-  fillContacts(world, step);
+  forUnits(step, [&](const WorkUnit& unit) {
+    const BatchView view = step.view(unit.batch);
+    fillContacts(world, step, unit);
+    step.backend->prepareContacts(view, step.solve, unit.tiles);
+  });
+  fillFullContacts(world, step);
   fillJoints(world, step);
-  for (size_t i = 0; i < step.batches.size(); ++i) step.backend->prepareContacts(step.view(i), step.solve);
+  for (size_t i = 0; i < step.batches.size(); ++i) step.backend->prepareOthers(step.view(i), step.solve);
 }
 
 }  // namespace avbd

@@ -1,23 +1,32 @@
 // Primal and dual iterations, batch by batch.
+#include "step/begin_rows.h"
 #include "step/keep_momentum.h"
 #include "step/settings.h"
 
 namespace avbd {
 
-void solveBlocks(WorldData& world, StepData& step) {
-  const bool sweep = world.def.primalSolver == PrimalSolver::BlockSweep;
-  for (size_t i = 0; i < step.batches.size(); ++i) {
-    const BatchRange& batch = step.batches[i];
-    const SolveSettings settings = withIterations(step.solve, batch.iterations);
-    Forest* forest = batch.forest != kNone ? &step.forests[batch.forest] : nullptr;
-    if (sweep) {
-      const Colors colors{step.coloring.ofOrder.data() + batch.orderBegin, step.coloring.colors};
-      solveSweep(step.view(i), *step.backend, settings, colors, step.sweep);
-    } else {
-      solveKrylov(step.view(i), *step.backend, settings, forest, step.krylov);
-    }
-    keepMomentum(world, step, batch);
+namespace {
+
+void solveBatch(const WorldData& world, StepData& step, uint32_t index, Jobs* jobs, int worker) {
+  const BatchRange& batch = step.batches[index];
+  const SolveSettings settings = withIterations(step.solve, batch.iterations);
+  Forest* forest = batch.forest != kNone ? &step.forests[batch.forest] : nullptr;
+  const auto at = static_cast<size_t>(worker);
+  if (world.def.primalSolver == PrimalSolver::BlockSweep) {
+    const Colors colors{step.coloring.ofOrder.data() + batch.orderBegin, step.coloring.colors};
+    solveSweep(step.view(index), *step.backend, settings, colors, step.sweep[at]);
+  } else {
+    solveKrylov(step.view(index), {*step.backend, jobs}, settings, forest, step.krylov[at]);
   }
+  keepMomentum(world, step, batch);
+}
+
+}  // namespace
+
+void solveBlocks(WorldData& world, StepData& step) {
+  const auto workers = static_cast<size_t>(step.jobs->workers());
+  step.sweep.resize(workers), step.krylov.resize(workers);
+  forBatches(step, [&](uint32_t batch, Jobs* jobs, int worker) { solveBatch(world, step, batch, jobs, worker); });
 }
 
 }  // namespace avbd

@@ -2,20 +2,23 @@
 // step picks them up.
 #include "solve/linked_joint.h"
 #include "solve/scalar_joint.h"
-#include "step/step_data.h"
+#include "step/begin_rows.h"
 
 namespace avbd {
 
 void updateRows(WorldData& world, StepData& step) {
   SolveSettings settings = step.solve;
   settings.contactLeak = 1;
-  for (size_t i = 0; i < step.batches.size(); ++i) {
-    step.backend->updateRows(step.view(i), settings);
+  forUnits(step,
+           [&](const WorkUnit& unit) { step.backend->updateContacts(step.view(unit.batch), settings, unit.tiles); });
+  forBatches(step, [&](uint32_t batch, Jobs*, int) {
+    const BatchView view = step.view(batch);
+    step.backend->updateOthers(view, settings);
     // Couplings read where scalar joints are, not their multipliers: the order is free.
-    updateScalar(step.view(i));
+    updateScalar(view);
     // The Krylov solver leaves whole forces.
-    if (world.def.primalSolver == PrimalSolver::BlockSweep) updateLinked(step.view(i));
-  }
+    if (world.def.primalSolver == PrimalSolver::BlockSweep) updateLinked(view);
+  });
 }
 
 }  // namespace avbd

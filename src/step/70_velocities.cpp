@@ -1,7 +1,7 @@
 // Velocities and poses at the end of the step, from the displacements. Nothing is written to the world yet.
 #include <cmath>
 
-#include "step/begin_rows.h"
+#include "step/begin_chunks.h"
 #include "step/free_motion.h"
 #include "step/restitution.h"
 
@@ -20,22 +20,23 @@ bool isFinite(Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std:
   throw NonFiniteError(stageName(stage), id.index, id.generation);
 }
 
-Vec3 bounded(Vec3 v, float limit) {
-  const float size = length(v);
-  return size > limit ? v * (limit / size) : v;
+StepData::EndState endState(const BodyData& body, Vec3 dp, const EndMotion<float>& end) {
+  return {body.position + dp, fromRow(end.q), fromRow(end.v), fromRow(end.w)};
 }
 
-/// v = v_free + (dp - y_p) / h, and the angular momentum likewise.
-StepData::EndState endState(const BodyData& body, const StepData& step, const FreeMotion& free, size_t at) {
-  const Vec3 dp = readLin(step.d, at), turn = readAng(step.d, at);
-  StepData::EndState end;
-  end.position = body.position + dp;
-  end.rotation = unit(quatFromVector(turn) * body.rotation);
-  end.linearVelocity = bounded(free.velocity + (dp - free.displacement) * (1 / step.h), body.maxLinearSpeed);
-  const Vec3 gained = turnedProduct(body.inertia, body.rotation, (turn - free.turn) * (1 / step.h));
-  const Vec3 spin = turnedProduct(body.invInertia, end.rotation, free.angularMomentum + gained);
-  end.angularVelocity = bounded(unlocked(spin, body.locks >> 3), body.maxAngularSpeed);
-  return end;
+void endBody(const WorldData& world, StepData& step, uint32_t index, uint32_t row) {
+  const uint32_t slot = step.order[index];
+  const size_t at = size_t(8) * row;
+  if (!isFinite(readLin(step.target, at)) || !isFinite(readAng(step.target, at))) fail(world, Stage::Predict, slot);
+  if (!isFinite(readLin(step.d, at)) || !isFinite(readAng(step.d, at))) fail(world, Stage::SolveBlocks, slot);
+  step.endOf[slot] = index;
+  step.rowOfEnd[index] = row;
+  StepData::EndState& end = step.end[index];
+  end =
+      endState(world.bodies[slot], readLin(step.d, at), step.endTiles[row / kTile].get(static_cast<int>(row % kTile)));
+  const bool finite = isFinite(end.position) && isFinite(end.linearVelocity) && isFinite(end.angularVelocity) &&
+                      std::isfinite(end.rotation.w + end.rotation.x + end.rotation.y + end.rotation.z);
+  if (!finite) fail(world, Stage::Velocities, slot);
 }
 
 }  // namespace
@@ -44,20 +45,10 @@ void updateVelocities(WorldData& world, StepData& step) {
   step.end.resize(step.order.size());
   step.rowOfEnd.resize(step.order.size());
   step.endOf.assign(world.bodies.size(), kNone);
-  for (const BatchRange& batch : step.batches)
-    for (uint32_t i = 0; i < batch.bodies; ++i) {
-      const uint32_t slot = step.order[batch.orderBegin + i];
-      const size_t at = size_t(8) * (batch.rowBegin + i);
-      if (!isFinite(readLin(step.target, at)) || !isFinite(readAng(step.target, at))) fail(world, Stage::Predict, slot);
-      if (!isFinite(readLin(step.d, at)) || !isFinite(readAng(step.d, at))) fail(world, Stage::SolveBlocks, slot);
-      step.endOf[slot] = batch.orderBegin + i;
-      step.rowOfEnd[batch.orderBegin + i] = batch.rowBegin + i;
-      StepData::EndState& end = step.end[batch.orderBegin + i];
-      end = endState(world.bodies[slot], step, step.free[batch.orderBegin + i], at);
-      const bool finite = isFinite(end.position) && isFinite(end.linearVelocity) && isFinite(end.angularVelocity) &&
-                          std::isfinite(end.rotation.w + end.rotation.x + end.rotation.y + end.rotation.z);
-      if (!finite) fail(world, Stage::Velocities, slot);
-    }
+  forUnits(step, [&](const WorkUnit& unit) {
+    step.backend->endMotions(step.view(unit.batch), step.h, {unit.rows.begin, roundUp(unit.rows.end)});
+    forBodies(step, unit, [&](uint32_t index, uint32_t row) { endBody(world, step, index, row); });
+  });
   applyRestitution(world, step);
 }
 

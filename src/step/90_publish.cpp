@@ -17,14 +17,16 @@ namespace {
 constexpr float kSlipping = 0.999f;  ///< of the cone: a friction force beyond it belongs to a point that slips
 
 void publishBodies(WorldData& world, const StepData& step) {
-  for (size_t i = 0; i < step.order.size(); ++i) {
-    BodyData& body = world.bodies[step.order[i]];
-    body.position = step.end[i].position;
-    body.rotation = step.end[i].rotation;
-    body.acceleration = (step.end[i].linearVelocity - body.linearVelocity) * (1 / step.h);
-    body.linearVelocity = step.end[i].linearVelocity;
-    body.angularVelocity = step.end[i].angularVelocity;
-  }
+  step.jobs->forRange(static_cast<uint32_t>(step.order.size()), 256, [&](uint32_t begin, uint32_t end, int) {
+    for (size_t i = begin; i < end; ++i) {
+      BodyData& body = world.bodies[step.order[i]];
+      body.position = step.end[i].position;
+      body.rotation = step.end[i].rotation;
+      body.acceleration = (step.end[i].linearVelocity - body.linearVelocity) * (1 / step.h);
+      body.linearVelocity = step.end[i].linearVelocity;
+      body.angularVelocity = step.end[i].angularVelocity;
+    }
+  });
   for (const uint32_t slot : step.kinematic) {
     BodyData& body = world.bodies[slot];
     body.position = body.position + body.linearVelocity * step.h;
@@ -116,13 +118,33 @@ void publishContact(WorldData& world, StepData& step, uint32_t pair, const Force
   publishMeans(world, world.pairs[pair], whole);
 }
 
+/// A contact that begins and ends nothing, and whose forces are all that there is to tell, is published at once.
+bool publishQuietly(WorldData& world, uint32_t index, const Forces& forces) {
+  PairData& pair = world.pairs[index];
+  const bool quiet = world.def.substeps == 1 && pair.restitution == 0 && !pair.hasSurface && !pair.wantsHits;
+  bool touches = false;
+  for (int i = 0; i < pair.pointCount; ++i) touches = touches || forces.normal[static_cast<size_t>(i)] > 0;
+  if (!quiet || touches != pair.wasTouching) return false;
+  pair.touching = touches;
+  publishPoints(pair, forces);
+  return true;
+}
+
+Forces forcesOfLane(const StepData& step, size_t lane) {
+  return forcesOf(step.contacts[lane / kTile].get(lane % kTile));
+}
+
 void publishContacts(WorldData& world, StepData& step) {
+  step.loud.resize(step.contactPair.size());
+  step.jobs->forRange(static_cast<uint32_t>(step.loud.size()), 1024, [&](uint32_t begin, uint32_t end, int) {
+    for (size_t lane = begin; lane < end; ++lane) {
+      const uint32_t pair = step.contactPair[lane];
+      step.loud[lane] = pair != kNone && !publishQuietly(world, pair, forcesOfLane(step, lane));
+    }
+  });
   size_t bounce = 0;
-  for (size_t lane = 0; lane < step.contactPair.size(); ++lane) {
-    if (step.contactPair[lane] == kNone) continue;
-    const Forces forces = forcesOf(step.contacts[lane / kTile].get(lane % kTile));
-    publishContact(world, step, step.contactPair[lane], forces, bounce);
-  }
+  for (size_t lane = 0; lane < step.loud.size(); ++lane)
+    if (step.loud[lane]) publishContact(world, step, step.contactPair[lane], forcesOfLane(step, lane), bounce);
   for (const BatchRange& batch : step.batches)
     for (size_t lane = size_t(batch.fullTile) * kTile; lane < size_t(batch.fullTile + batch.fullTiles) * kTile;
          ++lane) {

@@ -1,20 +1,13 @@
 // Layout of the batches.
 #include <algorithm>
 
-#include "step/begin_rows.h"
+#include "step/begin_chunks.h"
 
 namespace avbd {
 
 namespace {
 
 constexpr uint32_t kBatchBodies = 64;  ///< islands are added to a batch until it holds so many bodies
-
-uint32_t roundUp(uint32_t n) { return (n + kTile - 1) / kTile * kTile; }
-
-/// Fills the last tile with lanes that name the static row.
-void padLanes(std::vector<uint32_t>& lanes, uint32_t value) {
-  while (lanes.size() % kTile != 0) lanes.push_back(value);
-}
 
 void clearLanes(StepData& step) {
   for (auto* lanes : {step.contactRow, step.ballRow, step.fixedRow, step.fullRow, step.scalarRow})
@@ -23,6 +16,7 @@ void clearLanes(StepData& step) {
   step.contactPair.clear(), step.ballJoint.clear(), step.fixedJoint.clear(), step.tetJoint.clear();
   step.fullPair.clear(), step.scalar.clear(), step.linked.clear();
   step.batches.clear(), step.ranges.clear(), step.lockedRows.clear(), step.locks.clear();
+  step.chunks.clear(), step.seams.clear(), step.units.clear();
   step.forestCount = 0;
 }
 
@@ -46,28 +40,23 @@ void addBodies(const WorldData& world, StepData& step, BatchRange& batch) {
     range.coupled = island.pairCount > 0;
     step.ranges.push_back(range);
   }
-  batch.rows = batch.bodies + 1;  // and the static row
 }
 
-void addPairs(const WorldData& world, StepData& step, BatchRange& batch) {
-  batch.contactTile = static_cast<uint32_t>(step.contactPair.size()) / kTile;
+void addFull(const WorldData& world, StepData& step, BatchRange& batch) {
   batch.fullTile = static_cast<uint32_t>(step.fullPair.size()) / kTile;
   for (uint32_t n = 0; n < batch.islandCount; ++n) {
     const Island& island = step.islands[batch.islandBegin + n];
     for (uint32_t i = 0; i < island.pairCount; ++i) {
       const uint32_t pair = step.islandPairs[island.pairBegin + i];
-      const bool full = world.pairs[pair].isFull;
-      auto& row = full ? step.fullRow : step.contactRow;
-      (full ? step.fullPair : step.contactPair).push_back(pair);
-      row[0].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyA));
-      row[1].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyB));
+      if (!world.pairs[pair].isFull) continue;
+      step.fullPair.push_back(pair);
+      step.fullRow[0].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyA));
+      step.fullRow[1].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyB));
     }
   }
-  padLanes(step.contactPair, kNone), padLanes(step.fullPair, kNone);
-  for (auto& lanes : step.contactRow) padLanes(lanes, batch.bodies);
+  padLanes(step.fullPair, kNone);
   for (auto& lanes : step.fullRow) padLanes(lanes, batch.bodies);
   batch.fullTiles = static_cast<uint32_t>(step.fullPair.size()) / kTile - batch.fullTile;
-  batch.contactTiles = static_cast<uint32_t>(step.contactPair.size()) / kTile - batch.contactTile;
 }
 
 void addJoints(const WorldData& world, StepData& step, BatchRange& batch) {
@@ -91,11 +80,14 @@ void addJoints(const WorldData& world, StepData& step, BatchRange& batch) {
   batch.tetTiles = static_cast<uint32_t>(step.tetJoint.size()) / kTile - batch.tetTile;
 }
 
+/// What the solver does not write itself for the rows of static and kinematic bodies begins as 0.
 void resizeRows(StepData& step, uint32_t rows) {
-  for (auto* array : {&step.d, &step.target, &step.mass, &step.invMass, &step.diagonal, &step.gradient, &step.x,
-                      &step.r, &step.z, &step.p, &step.q})
-    array->assign(size_t(8) * rows, 0.0f);
-  step.hessian.assign(size_t(kHessianRow) * rows, 0.0f);
+  for (auto* array : {&step.d, &step.target, &step.mass, &step.invMass}) array->assign(size_t(8) * rows, 0.0f);
+  for (auto* array : {&step.diagonal, &step.gradient, &step.x, &step.r, &step.z, &step.p, &step.q})
+    array->resize(size_t(8) * rows);
+  for (auto* array : {&step.length, &step.product}) array->resize(rows);
+  step.hessian.resize(size_t(kHessianRow) * rows);
+  step.body.resize(rows / kTile), step.free.resize(rows / kTile), step.endTiles.resize(rows / kTile);
   step.inverse.resize(rows / kTile);
 }
 
@@ -143,15 +135,19 @@ void layOutBatches(const WorldData& world, StepData& step) {
     batch.orderBegin = step.islands[island].bodyBegin;
     batch.rowBegin = rows;
     batch.lockedBegin = static_cast<uint32_t>(step.lockedRows.size());
+    uint32_t bodies = 0;
     const auto fits = [&] {
-      return island < step.islands.size() && step.islands[island].iterations == batch.iterations;
+      if (island == step.islands.size() || step.islands[island].iterations != batch.iterations) return false;
+      return bodies == 0 || (bodies < kBatchBodies && step.islands[island].bodyCount < kChunkedBodies);
     };
-    for (uint32_t bodies = 0; fits() && bodies < kBatchBodies; ++island, ++batch.islandCount)
-      bodies += step.islands[island].bodyCount;
+    for (; fits(); ++island, ++batch.islandCount) bodies += step.islands[island].bodyCount;
     addBodies(world, step, batch);
-    addPairs(world, step, batch);
+    addChunks(step, batch);
+    addContacts(world, step, batch);
+    addFull(world, step, batch);
     addJoints(world, step, batch);
     batch.rows = roundUp(batch.rows);
+    step.chunks.back().rows.end = batch.rows;
     rows += batch.rows;
     step.batches.push_back(batch);
   }
@@ -165,11 +161,16 @@ BatchView StepData::view(size_t index) {
   v.bodies = b.bodies, v.rows = b.rows, v.islands = b.islandCount;
   v.island = ranges.data() + b.islandBegin;
   const size_t at = size_t(8) * b.rowBegin;
+  const size_t tile = b.rowBegin / kTile;
+  v.body = body.data() + tile, v.free = free.data() + tile, v.end = endTiles.data() + tile;
   v.d = d.data() + at, v.target = target.data() + at, v.mass = mass.data() + at, v.invMass = invMass.data() + at;
   v.diagonal = diagonal.data() + at, v.gradient = gradient.data() + at;
   v.hessian = hessian.data() + size_t(kHessianRow) * b.rowBegin;
   v.inverse = inverse.data() + b.rowBegin / kTile;
   v.x = x.data() + at, v.r = r.data() + at, v.z = z.data() + at, v.p = p.data() + at, v.q = q.data() + at;
+  v.step = length.data() + b.rowBegin, v.product = product.data() + b.rowBegin;
+  v.chunks = {chunks.data() + b.chunkBegin, b.chunkCount};
+  v.seams = {seams.data() + b.seamBegin, b.seamCount};
   v.contacts = {contacts.data() + b.contactTile, contactRow[0].data() + b.contactTile * kTile,
                 contactRow[1].data() + b.contactTile * kTile, b.contactTiles};
   v.balls = {balls.data() + b.ballTile, ballRow[0].data() + b.ballTile * kTile, ballRow[1].data() + b.ballTile * kTile,

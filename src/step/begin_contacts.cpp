@@ -108,13 +108,18 @@ rows::FullContact<float> fullRows(WorldData& world, const StepData& step, uint32
 
 }  // namespace
 
-void fillContacts(WorldData& world, StepData& step) {
-  for (size_t lane = 0; lane < step.contactPair.size(); ++lane) {
-    const uint32_t pair = step.contactPair[lane];
-    rows::Contact<float> c{};
-    if (pair != kNone) c = changedRows(world, step, pair);
-    step.contacts[lane / kTile].set(lane % kTile, c);
-  }
+void fillContacts(WorldData& world, StepData& step, const WorkUnit& unit) {
+  const uint32_t first = step.batches[unit.batch].contactTile;
+  for (size_t tile = first + unit.tiles.begin; tile < first + unit.tiles.end; ++tile)
+    for (int lane = 0; lane < kTile; ++lane) {
+      const uint32_t pair = step.contactPair[kTile * tile + static_cast<size_t>(lane)];
+      rows::Contact<float> c{};
+      if (pair != kNone) c = changedRows(world, step, pair);
+      step.contacts[tile].set(lane, c);
+    }
+}
+
+void fillFullContacts(WorldData& world, StepData& step) {
   for (size_t lane = 0; lane < step.fullPair.size(); ++lane) {
     const uint32_t pair = step.fullPair[lane];
     rows::FullContact<float> full{};

@@ -13,12 +13,36 @@ inline rows::V3<float> toRow(Vec3d v) {
 inline rows::Q4<float> toRow(Quat q) { return {q.w, q.x, q.y, q.z}; }
 inline rows::Sym3<float> toRow(const SymMat3& s) { return {s.xx, s.yy, s.zz, s.xy, s.xz, s.yz}; }
 inline Vec3 fromRow(rows::V3<float> v) { return {v.x, v.y, v.z}; }
+/// f(unit) for all units of work, by all workers.
+template <class F>
+void forUnits(const StepData& step, F&& f) {
+  step.jobs->run(static_cast<uint32_t>(step.units.size()), [&](uint32_t i, int) { f(step.units[i]); });
+}
+/// f(batch, jobs for its chunks or null, worker) for all batches: those with chunks one after the other, the others
+/// side by side.
+template <class F>
+void forBatches(const StepData& step, F&& f) {
+  const auto count = static_cast<uint32_t>(step.batches.size());
+  for (uint32_t i = 0; i < count; ++i)
+    if (step.batches[i].chunkCount > 1) f(i, step.jobs, 0);
+  step.jobs->run(count, [&](uint32_t i, int worker) {
+    if (step.batches[i].chunkCount == 1) f(i, static_cast<Jobs*>(nullptr), worker);
+  });
+}
+/// f(index in StepData::order, body row over all batches) for the bodies of a unit.
+template <class F>
+void forBodies(const StepData& step, const WorkUnit& unit, F&& f) {
+  const BatchRange& batch = step.batches[unit.batch];
+  for (uint32_t i = unit.rows.begin; i < unit.rows.end; ++i) f(batch.orderBegin + i, batch.rowBegin + i);
+}
+
 inline Quat fromRow(rows::Q4<float> q) { return {q.w, q.x, q.y, q.z}; }
 
 /// Cuts the islands into batches and gives every body its row, every pair and joint its lane.
 void layOutBatches(const WorldData& world, StepData& step);
 void fillBodies(const WorldData& world, StepData& step);
-void fillContacts(WorldData& world, StepData& step);
+void fillContacts(WorldData& world, StepData& step, const WorkUnit& unit);  ///< may run beside other units
+void fillFullContacts(WorldData& world, StepData& step);
 void fillJoints(const WorldData& world, StepData& step);
 void fillScalarJoints(const WorldData& world, StepData& step);
 /// Acceleration drives of trees, after the scalar joints: by the inertia of all that hangs on them.

@@ -40,23 +40,25 @@ constexpr size_t multiplierLine(size_t point) {
 
 /// Only the multipliers of each tile are read, sixteen contacts at a time. A full contact begins with a contact.
 template <template <class> class Family>
-void checkContactTiles(const WorldData& world, const AlignedVector<Tile<Family>>& tiles,
+void checkContactTiles(const WorldData& world, const StepData& step, const AlignedVector<Tile<Family>>& tiles,
                        const std::vector<uint32_t>& pairs) {
-  for (size_t t = 0; t < tiles.size(); ++t) {
-    float sum[kTile] = {};
-    for (size_t point = 0; point < size_t(kMaxManifoldPoints); ++point)
-      for (size_t line = multiplierLine(point); line < multiplierLine(point) + 3; ++line)
-        for (size_t lane = 0; lane < kTile; ++lane) sum[lane] += tiles[t].data[line][lane] * 0;
-    for (size_t lane = 0; lane < kTile; ++lane)
-      if (!(sum[lane] == 0) && pairs[kTile * t + lane] != kNone)
-        fail(world, movableOf(world, world.pairs[pairs[kTile * t + lane]]));
-  }
+  step.jobs->forRange(static_cast<uint32_t>(tiles.size()), 64, [&](uint32_t begin, uint32_t end, int) {
+    for (size_t t = begin; t < end; ++t) {
+      float sum[kTile] = {};
+      for (size_t point = 0; point < size_t(kMaxManifoldPoints); ++point)
+        for (size_t line = multiplierLine(point); line < multiplierLine(point) + 3; ++line)
+          for (size_t lane = 0; lane < kTile; ++lane) sum[lane] += tiles[t].data[line][lane] * 0;
+      for (size_t lane = 0; lane < kTile; ++lane)
+        if (!(sum[lane] == 0) && pairs[kTile * t + lane] != kNone)
+          fail(world, movableOf(world, world.pairs[pairs[kTile * t + lane]]));
+    }
+  });
 }
 
 void checkContacts(const WorldData& world, const StepData& step) {
   static_assert(offsetof(rows::FullContact<float>, contact) == 0);
-  checkContactTiles(world, step.contacts, step.contactPair);
-  checkContactTiles(world, step.full, step.fullPair);
+  checkContactTiles(world, step, step.contacts, step.contactPair);
+  checkContactTiles(world, step, step.full, step.fullPair);
   for (size_t lane = 0; lane < step.fullPair.size(); ++lane) {
     if (step.fullPair[lane] == kNone) continue;
     const rows::FullContact<float> full = step.full[lane / kTile].get(lane % kTile);

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "base/jobs.h"
 #include "world/world_data.h"
 
 namespace avbd {
@@ -19,6 +20,7 @@ class Stepper {
   void step(WorldData& world, float dt);
 
  private:
+  std::unique_ptr<Jobs> jobs_;  ///< from the first step on
   std::unique_ptr<StepData> data_;
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/aligned.h"
+#include "base/jobs.h"
 #include "collide/collide_surface.h"
 #include "solve/backend.h"
 #include "solve/krylov.h"
@@ -12,7 +13,6 @@
 #include "solve/scalar_joint.h"
 #include "solve/sweep.h"
 #include "solve/tree_response.h"
-#include "step/free_motion.h"
 #include "world/world_data.h"
 
 namespace avbd {
@@ -41,7 +41,35 @@ struct BatchRange {
   uint32_t scalarTile = 0, scalarTiles = 0, scalarCount = 0;
   uint32_t linkedBegin = 0, linkedCount = 0;
   uint32_t lockedBegin = 0, lockedCount = 0;
-  uint32_t forest = kNone;  ///< in StepData::forests
+  uint32_t forest = kNone;                  ///< in StepData::forests
+  uint32_t chunkBegin = 0, chunkCount = 0;  ///< in StepData::chunks
+  uint32_t seamBegin = 0, seamCount = 0;    ///< in StepData::seams
+};
+
+/// A piece of work of the stages that go over body rows or contacts: a chunk of a batch, or a seam, which has no rows.
+struct WorkUnit {
+  uint32_t batch = 0;
+  Slice rows;   ///< of the batch's dynamic bodies
+  Slice tiles;  ///< of the batch's contacts
+};
+
+/// A contact on its way to a lane.
+struct PlacedPair {
+  uint32_t pair = kNone, rowA = 0, rowB = 0;
+  uint32_t bucket = 0;  ///< chunks, then seams, then what touches a kinematic body
+};
+
+/// What finding the chunks' and seams' contacts needs.
+struct ChunkScratch {
+  std::vector<PlacedPair> pairs;
+  std::vector<uint32_t> seamOf;  ///< by two chunks, the lower one first: index in `seams`
+  struct Between {
+    uint32_t low = 0, high = 0, color = 0;
+  };
+  std::vector<Between> seams;
+  std::vector<uint32_t> order;  ///< of the seams, by colour
+  std::vector<uint32_t> place;  ///< by bucket: among the buckets in their order
+  std::vector<uint32_t> next;   ///< by place: where its next contact goes
 };
 
 /// A contact row that rebounds (restitution.h).
@@ -151,6 +179,7 @@ struct StepData {
   float loadDepth = 0;  ///< [m] at which a loaded row holds its load
   SolveSettings solve;
   const Backend* backend = nullptr;
+  Jobs* jobs = nullptr;
   int substep = 0;  ///< that runs
 
   std::vector<BodyData> bodiesBefore;   ///< the whole step, where substeps may fail
@@ -187,6 +216,10 @@ struct StepData {
   std::vector<uint32_t> islandPairs;   ///< pairs with points, island by island, by key
   std::vector<uint32_t> islandJoints;  ///< joint slots
   std::vector<BatchRange> batches;
+  std::vector<Chunk> chunks;
+  std::vector<Seam> seams;
+  std::vector<WorkUnit> units;
+  ChunkScratch chunking;
   std::vector<uint32_t> rowOf;           ///< by body slot: row within its batch; static bodies: kNone
   std::vector<uint32_t> kinematic;       ///< slots
   std::vector<uint32_t> kinematicBatch;  ///< by body slot: the last batch that gave it a row
@@ -195,15 +228,17 @@ struct StepData {
   };
   std::vector<KinematicRow> kinematicRows;  ///< rows count over all batches
 
-  std::vector<uint8_t> slidesOnly;  ///< by body slot: all its contacts have slid for some steps
-  std::vector<FreeMotion> free;     ///< by StepData::order
-  std::vector<Vec3> carried;        ///< by body slot: force of contacts and joints in the last step [N]
+  std::vector<uint8_t> slidesOnly;  ///< by body row over all batches: all its contacts have slid for some steps
+  std::vector<Vec3> carried;        ///< likewise: force of contacts and joints in the last step [N]
 
   Coloring coloring;  // 40_colors
 
   // Body rows.
   std::vector<IslandRange> ranges;
-  AlignedVector<float> d, target, mass, invMass, diagonal, gradient, hessian, x, r, z, p, q;
+  AlignedVector<Tile<FreeBody>> body;  ///< of all batches, as the rows
+  AlignedVector<Tile<FreeMotion>> free;
+  AlignedVector<Tile<EndMotion>> endTiles;
+  AlignedVector<float> d, target, mass, invMass, diagonal, gradient, hessian, x, r, z, p, q, length, product;
   AlignedVector<Tile<rows::Sym6>> inverse;
   std::vector<uint32_t> lockedRows;
   std::vector<uint8_t> locks;
@@ -227,8 +262,8 @@ struct StepData {
   uint32_t forestCount = 0;
   std::vector<TreeResponse> response;  ///< of one forest
   ForestScratch planting;
-  KrylovScratch krylov;
-  SweepPlan sweep;
+  std::vector<KrylovScratch> krylov;  ///< by worker
+  std::vector<SweepPlan> sweep;       ///< by worker
 
   // 70_velocities: the state at the end of the step, by StepData::order; written back by 90_publish
   struct EndState {
@@ -243,10 +278,12 @@ struct StepData {
 
   // 90_publish
   std::vector<uint64_t> touchChanges;   ///< keys of pairs that may have begun or ended to touch
+  std::vector<uint8_t> loud;            ///< by lane of contacts: its publication makes more than its own forces
   std::vector<TouchRecord> touches;     ///< of all substeps so far
   std::vector<HitRecord> hits;          ///< likewise
   std::vector<PoseBefore> posesBefore;  ///< by body slot, where moves are events
 
+  size_t rows() const { return product.size(); }  ///< of all batches
   BatchView view(size_t batch);
 };
 

@@ -1,4 +1,5 @@
 // Settings of a world (check.h).
+#include "base/jobs.h"
 #include "base/lane_width.h"
 #include "world/check.h"
 #include "world/limits.h"
@@ -10,7 +11,8 @@ void checkWorld(const WorldDef& def) {
   check(path / "lengthUnit", def.lengthUnit, Range{kMinUnit, kMaxUnit});
   const double unit = def.lengthUnit;
   check(path / "gravity", def.gravity, symmetric(kMaxAcceleration * unit));
-  check(path / "workers", def.workers, Range{1, 1024});
+  check(path / "workers", def.workers, Range{1, Jobs::kMostWorkers});
+  if (def.tasks.run) check(path / "tasks" / "workers", def.tasks.workers, Range{1, Jobs::kMostWorkers});
   check(path / "iterations", def.iterations, Range{1, kMaxIterations});
   check(path / "substeps", def.substeps, Range{1, 1000});
   check(path / "restitutionThreshold", def.restitutionThreshold, notNegative(kMaxSpeed * unit));
