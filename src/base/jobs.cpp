@@ -113,7 +113,7 @@ struct Jobs::Threads {
     const FloatMode mode;
     // More threads than cores: waiting awake would keep the others from working.
     const unsigned cores = std::thread::hardware_concurrency();
-    const int spins = cores == 0 || list.size() < cores ? kSpins : 0;
+    const int spins = cores == 0 || static_cast<unsigned>(shared.slots) <= cores ? kSpins : 0;
     uint32_t seen = 0;
     while (!shared.stops) {
       for (int i = 0; i < spins && shared.jobs.load(std::memory_order_acquire) == seen; ++i) relax();
