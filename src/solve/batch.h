@@ -150,6 +150,7 @@ struct SolveSettings {
   int newtonFactor = 8;    ///< Newton steps of islands that are solved exactly: at most so many times the iterations
   float contactLeak = 1;   ///< share of a contact multiplier that survives an iteration
   float jointLeak = 1;     ///< the same of joints outside trees: loops that cannot close must not wind up
+  float negligible = 0;    ///< [m] root mean square of a correction that is not worth an iteration of a search
   float floorFactor = 10;  ///< c: stiffness floor is c / (w h^2)
 };
 

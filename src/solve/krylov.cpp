@@ -104,8 +104,8 @@ class Krylov {
     for (uint32_t n = 0; n < v_.islands; ++n) {
       if (!s_.active[n]) continue;
       s_.rz[n] = sum(n);
-      s_.limit[n] = kRelativeResidual * s_.rz[n];
-      s_.active[n] = s_.rz[n] > 0;
+      s_.limit[n] = std::max(kRelativeResidual * s_.rz[n], s_.least[n]);
+      s_.active[n] = s_.rz[n] > s_.least[n];
     }
   }
 
@@ -258,9 +258,25 @@ void iterate(const BatchView& view, const KrylovTools& tools, const SolveSetting
 
 }  // namespace
 
+namespace {
+
+/// What moves an island's bodies by no more than is negligible, were all as light as the lightest.
+void findLeast(const BatchView& view, float negligible, KrylovScratch& scratch) {
+  scratch.least.resize(view.islands);
+  for (uint32_t n = 0; n < view.islands; ++n) {
+    const IslandRange& island = view.island[n];
+    float lightest = view.mass[size_t(8) * island.begin];
+    for (uint32_t i = island.begin; i < island.end; ++i) lightest = rows::min(lightest, view.mass[size_t(8) * i]);
+    scratch.least[n] = static_cast<float>(island.end - island.begin) * lightest * (negligible * negligible);
+  }
+}
+
+}  // namespace
+
 void solveKrylov(const BatchView& view, const KrylovTools& tools, const SolveSettings& settings, Forest* forest,
                  KrylovScratch& scratch) {
   scratch.unsolved.assign(view.islands, 1);
+  findLeast(view, settings.negligible, scratch);
   for (int i = 0; i < settings.iterations; ++i) {
     const Phase phase = i > 0 ? Phase::Outer : Phase::First;
     iterate(view, tools, settings, forest, phase, scratch);

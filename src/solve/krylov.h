@@ -10,6 +10,7 @@ namespace avbd {
 /// What one batch is solved with; memory is kept between steps.
 struct KrylovScratch {
   std::vector<float> rz, limit, step;
+  std::vector<float> least;       ///< of r . M^-1 r: below it an island is solved
   std::vector<uint8_t> active;    ///< islands that still iterate within an outer iteration
   std::vector<uint8_t> unsolved;  ///< islands that outer iterations still move
 };
