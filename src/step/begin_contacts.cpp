@@ -21,10 +21,9 @@ float normalBias(const WorldData& world, const StepData& step, float separation)
   return std::min((1 - step.alpha) * -gap, world.def.maxDepenetrationSpeed * step.h);
 }
 
-/// What an iteration of the pair's island leaves of its multipliers.
-float leakOf(const StepData& step, const PairData& pair) {
-  const int iterations = step.islands[islandOfPair(step, pair)].iterations;
-  return withIterations(step.solve, iterations).contactLeak;
+/// What an iteration of the batch leaves of its multipliers.
+float leakOf(const StepData& step, const BatchRange& batch) {
+  return withIterations(step.solve, batch.iterations).contactLeak;
 }
 
 rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& step, PairData& pair, int i,
@@ -63,7 +62,7 @@ void moveSurface(const StepData& step, const PairData& pair, Vec3 belt, rows::Co
   }
 }
 
-rows::Contact<float> contactRows(const WorldData& world, const StepData& step, PairData& pair) {
+rows::Contact<float> contactRows(const WorldData& world, const StepData& step, PairData& pair, float leak) {
   rows::Contact<float> c{};
   c.n = toRow(pair.normal), c.t1 = toRow(pair.t1), c.t2 = toRow(pair.t2);
   // What stands on something that does not move couples nothing, so its stiffness costs the conjugate gradients
@@ -76,7 +75,6 @@ rows::Contact<float> contactRows(const WorldData& world, const StepData& step, P
   reference = reference * (1.0f / static_cast<float>(pair.pointCount));
   c.armA = toRow(reference);
   c.armB = toRow(reference - toFloat(world.bodies[pair.bodyB].position - world.bodies[pair.bodyA].position));
-  const float leak = leakOf(step, pair);
   for (int i = 0; i < pair.pointCount; ++i) {
     c.point[i] = pointRows(world, step, pair, i, leak);
     c.point[i].arm = c.point[i].arm - c.armA;
@@ -84,20 +82,20 @@ rows::Contact<float> contactRows(const WorldData& world, const StepData& step, P
   return c;
 }
 
-rows::Contact<float> changedRows(WorldData& world, const StepData& step, uint32_t index) {
-  rows::Contact<float> c = contactRows(world, step, world.pairs[index]);
+rows::Contact<float> changedRows(WorldData& world, const StepData& step, uint32_t index, float leak) {
+  rows::Contact<float> c = contactRows(world, step, world.pairs[index], leak);
   if (step.changes.empty()) return c;
   const ContactChange& change = changeOf(step, index);
   if (change.belt != Vec3{}) moveSurface(step, world.pairs[index], change.belt, c);
   return c;
 }
 
-rows::FullContact<float> fullRows(WorldData& world, const StepData& step, uint32_t index) {
+rows::FullContact<float> fullRows(WorldData& world, const StepData& step, uint32_t index, float leak) {
   const PairData& pair = world.pairs[index];
   const ContactChange& change = changeOf(step, index);
-  const float leak = leakOf(step, pair), share = 1 - step.alpha;
+  const float share = 1 - step.alpha;
   rows::FullContact<float> full{};
-  full.contact = changedRows(world, step, index);
+  full.contact = changedRows(world, step, index, leak);
   full.torsional = pair.torsionalFriction, full.rolling = pair.rollingFriction;
   full.biasTorsion = share * pair.turn.x, full.bias1 = share * pair.turn.y, full.bias2 = share * pair.turn.z;
   full.lambdaTorsion = leak * pair.torque.x;
@@ -109,22 +107,27 @@ rows::FullContact<float> fullRows(WorldData& world, const StepData& step, uint32
 }  // namespace
 
 void fillContacts(WorldData& world, StepData& step, const WorkUnit& unit) {
-  const uint32_t first = step.batches[unit.batch].contactTile;
-  for (size_t tile = first + unit.tiles.begin; tile < first + unit.tiles.end; ++tile)
+  const BatchRange& batch = step.batches[unit.batch];
+  const float leak = leakOf(step, batch);
+  for (size_t tile = batch.contactTile + unit.tiles.begin; tile < batch.contactTile + unit.tiles.end; ++tile)
     for (int lane = 0; lane < kTile; ++lane) {
       const uint32_t pair = step.contactPair[kTile * tile + static_cast<size_t>(lane)];
       rows::Contact<float> c{};
-      if (pair != kNone) c = changedRows(world, step, pair);
+      if (pair != kNone) c = changedRows(world, step, pair, leak);
       step.contacts[tile].set(lane, c);
     }
 }
 
 void fillFullContacts(WorldData& world, StepData& step) {
-  for (size_t lane = 0; lane < step.fullPair.size(); ++lane) {
-    const uint32_t pair = step.fullPair[lane];
-    rows::FullContact<float> full{};
-    if (pair != kNone) full = fullRows(world, step, pair);
-    step.full[lane / kTile].set(lane % kTile, full);
+  for (const BatchRange& batch : step.batches) {
+    const float leak = leakOf(step, batch);
+    for (size_t lane = size_t(batch.fullTile) * kTile; lane < size_t(batch.fullTile + batch.fullTiles) * kTile;
+         ++lane) {
+      const uint32_t pair = step.fullPair[lane];
+      rows::FullContact<float> full{};
+      if (pair != kNone) full = fullRows(world, step, pair, leak);
+      step.full[lane / kTile].set(static_cast<int>(lane % kTile), full);
+    }
   }
 }
 

@@ -12,7 +12,7 @@ constexpr float kLeak = 0.01f;        ///< share of a contact multiplier that ea
 constexpr float kJointLeak = 0.001f;  ///< the same of joints that no tree holds
 constexpr float kSlop = 0.001f;       ///< of the length unit
 constexpr float kLoadDepth = 0.005f;  ///< of the length unit: without gravity
-constexpr float kNegligible = 0.02f;  ///< of the slop: what a search need not correct
+constexpr float kNegligible = 2e-4f;  ///< of the load depth, a micrometre: what a search need not correct
 constexpr int kKrylovIterations = 12;
 
 }  // namespace
@@ -34,7 +34,7 @@ void chooseSettings(const WorldData& world, StepData& step, float h) {
   const float fall = 2 * length(def.gravity) * h * h;
   step.loadDepth = fall > 0 ? fall : kLoadDepth * def.lengthUnit * steps * steps;
   step.solve.h = h;
-  step.solve.negligible = kNegligible * step.slop;
+  step.solve.negligible = kNegligible * step.loadDepth;
   step.solve.krylovIterations = def.krylovIterations > 0 ? def.krylovIterations : kKrylovIterations;
   step.solve = withIterations(step.solve, def.iterations);
   const int width = def.simdWidth > 0 ? def.simdWidth : widestLane();
