@@ -73,6 +73,7 @@ CLI::App* addRun(CLI::App& app, RunArguments& a, std::string& solver) {
   run->add_option("--html", a.html, "write a page that plays the run");
   run->add_option("--poses", a.poses, "write poses of body frames as CSV, in the file's world frame");
   run->add_option("--probes", a.probes, "write what the file's sensors measure as CSV, a row a step");
+  run->add_option("--trace", a.trace, "write when each step and stage ran, for Perfetto or chrome://tracing");
   run->add_option("--fps", a.fps, "row sets of the CSV, and frames of the recording, per simulated second [60]");
   run->add_option("--control", a.control, "CSV of time, actuator, value: what actuators are given; values hold");
   run->add_option("--record", a.record, "write a recording, which play, convert and info read");

@@ -29,6 +29,7 @@ struct RunArguments {
   double fps = 60;                 ///< row sets of `poses` and frames of `record` per second of simulated time
   std::string record;              ///< recording to write; empty: none
   std::string probes;              ///< readings of the model's probes to write; empty: none
+  std::string trace;               ///< trace of steps and stages to write; empty: none
   std::string control;             ///< control values over time to read; empty: none
   bool live = false;               ///< serve the page while it runs
   int port = kLivePort;            ///< of `live`

@@ -41,7 +41,9 @@ Outputs::Outputs(const RunArguments& a, const Model& model, const Plan& plan)
   if (!a.poses.empty()) csvFile_ = std::make_unique<OutputFile>("--poses", a.poses);
   if (!a.html.empty()) pageFile_ = std::make_unique<OutputFile>("--html", a.html);
   if (!a.probes.empty()) probesFile_ = std::make_unique<OutputFile>("--probes", a.probes);
+  if (!a.trace.empty()) traceFile_ = std::make_unique<OutputFile>("--trace", a.trace);
   refuseSame(a);
+  if (traceFile_) trace_ = std::make_unique<Trace>(traceFile_->stream());
   if (probesFile_) probes_ = std::make_unique<ProbesCsv>(probesFile_->stream(), model);
   if (csvFile_) csv_ = std::make_unique<PosesCsv>(csvFile_->stream(), model);
   if (pageFile_) {
@@ -75,6 +77,10 @@ void Outputs::look(const Model& model, int64_t step, const Plan& plan) {
   if (inRecord) record(recorder_->frame(model, time));
 }
 
+void Outputs::timed(double start, double seconds, const StepReport& report) {
+  if (trace_) trace_->add(start, seconds, report);
+}
+
 void Outputs::record(const RecordedFrame& frame) {
   try {
     writer_->add(frame);
@@ -92,8 +98,9 @@ void Outputs::commit(const ReportLines& report) {
     page_.report = report;
     writePage(pageFile_->stream(), page_);
   }
+  if (trace_) trace_->finish();
   // All or none.
-  const auto files = {&csvFile_, &pageFile_, &probesFile_};
+  const auto files = {&csvFile_, &pageFile_, &probesFile_, &traceFile_};
   for (const auto& file : files)
     if (*file) (*file)->finish();
   try {
@@ -111,8 +118,11 @@ void Outputs::refuseSame(const RunArguments& a) const {
   for (const auto& file : {&csvFile_, &pageFile_})
     if (*file && probesFile_ && (*file)->target() == probesFile_->target())
       throw BadInput("--probes is the same file as another output: " + a.probes);
+  for (const auto& file : {&csvFile_, &pageFile_, &probesFile_})
+    if (*file && traceFile_ && (*file)->target() == traceFile_->target())
+      throw BadInput("--trace is the same file as another output: " + a.trace);
   std::error_code none;
-  const std::string all[] = {a.poses, a.html, a.record, a.probes};
+  const std::string all[] = {a.poses, a.html, a.record, a.probes, a.trace};
   for (const std::string& file : all)
     if (!file.empty() && fs::equivalent(file, a.scene, none)) throw BadInput(file + ": is the scene itself");
   for (const std::string& file : all)
@@ -120,7 +130,7 @@ void Outputs::refuseSame(const RunArguments& a) const {
       throw BadInput(file + ": is the file of --control");
   if (a.record.empty()) return;
   const fs::path target = fs::weakly_canonical(a.record, none);
-  for (const auto& file : {&csvFile_, &pageFile_, &probesFile_})
+  for (const auto& file : {&csvFile_, &pageFile_, &probesFile_, &traceFile_})
     if (*file && (*file)->target() == target)
       throw BadInput("--record is the same file as another output: " + a.record);
 }

@@ -13,6 +13,7 @@
 #include "app/probes_csv.h"
 #include "app/recorder.h"
 #include "app/sampler.h"
+#include "app/trace.h"
 #include "io/record/writer.h"
 
 namespace avbd::cli {
@@ -24,6 +25,8 @@ class Outputs {
   Outputs(const RunArguments& a, const Model& model, const Plan& plan);
   /// To be called after every step, and before the first.
   void look(const Model& model, int64_t step, const Plan& plan);
+  /// To be called after every step, with when it began and what it took [s].
+  void timed(double start, double seconds, const StepReport& report);
   void commit(const ReportLines& report);
 
  private:
@@ -33,9 +36,10 @@ class Outputs {
   Sampler csvSampler_, pageSampler_, recordSampler_;
   std::vector<BodyId> ids_;
   std::vector<Pose> poses_;
-  std::unique_ptr<OutputFile> csvFile_, pageFile_, probesFile_;
+  std::unique_ptr<OutputFile> csvFile_, pageFile_, probesFile_, traceFile_;
   std::unique_ptr<PosesCsv> csv_;
   std::unique_ptr<ProbesCsv> probes_;
+  std::unique_ptr<Trace> trace_;
   std::unique_ptr<Recorder> pageRecorder_, recorder_;
   Recording page_;
   std::unique_ptr<RecordWriter> writer_;

@@ -23,13 +23,21 @@
 namespace avbd::cli {
 namespace {
 
-double timedStep(Model& model, int64_t step, double dt) {
-  using Clock = std::chrono::steady_clock;
+/// Of the wall clock [s].
+struct Taken {
+  double start = 0, seconds = 0;
+};
+
+double clockSeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Taken timedStep(Model& model, int64_t step, double dt) {
   try {
     if (model.before) model.before(model, step - 1);
-    const auto before = Clock::now();
+    const double before = clockSeconds();
     model.world.step(static_cast<float>(dt));
-    return std::chrono::duration<double>(Clock::now() - before).count();
+    return {before, clockSeconds() - before};
   } catch (const NonFiniteError& e) {
     throw nonFiniteRun(model, e, step, static_cast<double>(step) * dt);
   }
@@ -113,14 +121,16 @@ int runCommand(const RunArguments& asked, std::ostream& out, std::ostream& err) 
   Outputs outputs(a, model, plan);
   if (page) page->show(err);
   Clockwork clock;
+  const double began = clockSeconds();
   {
     Progress progress(err);
     outputs.look(model, 0, plan);
     for (int64_t step = 1; step <= plan.steps; ++step) {
       throwIfStopped();
       control.apply(model, static_cast<double>(step - 1) * plan.dt, plan.dt);
-      const double seconds = timedStep(model, step, plan.dt);
-      clock.add(seconds, model.world.report());
+      const Taken taken = timedStep(model, step, plan.dt);
+      clock.add(taken.seconds, model.world.report());
+      outputs.timed(taken.start - began, taken.seconds, model.world.report());
       outputs.look(model, step, plan);
       if (page) page->pace(static_cast<double>(step) * plan.dt);
       progress.show(step, plan.steps, static_cast<double>(step) * plan.dt);

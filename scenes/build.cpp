@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "scenes/trig.h"
+
 namespace avbd::scenes {
 
 WorldDef apply(const Settings& settings, WorldDef def) {
@@ -34,15 +36,17 @@ Figure holds(std::string name, bool yes, std::string params) {
 }
 
 Quat turned(Vec3 axis, double angle) {
-  const float s = static_cast<float>(std::sin(angle / 2));
-  return {static_cast<float>(std::cos(angle / 2)), axis.x * s, axis.y * s, axis.z * s};
+  const float s = static_cast<float>(sine(angle / 2));
+  return {static_cast<float>(cosine(angle / 2)), axis.x * s, axis.y * s, axis.z * s};
 }
 
 Quat along(Vec3 axis) {
   const Vec3 turn = cross(Vec3{1, 0, 0}, axis);
   if (dot(turn, turn) < 1e-12f) return axis.x > 0 ? Quat{} : Quat{0, 0, 1, 0};
-  const float sine = length(turn);
-  return turned(turn * (1 / sine), std::atan2(static_cast<double>(sine), static_cast<double>(axis.x)));
+  const double cosineOfTurn = static_cast<double>(axis.x) / length(toDouble(axis));
+  const float s = static_cast<float>(std::sqrt((1 - cosineOfTurn) / 2));
+  const Vec3 about = turn * (s / length(turn));
+  return {static_cast<float>(std::sqrt((1 + cosineOfTurn) / 2)), about.x, about.y, about.z};
 }
 
 std::string text(double value) {

@@ -1,9 +1,9 @@
 // The classic house of cards: storey k has 5 - k tents of two leaning cards, and flat cards from tip to tip above them.
-#include <cmath>
 #include <utility>
 
 #include "scenes/build.h"
 #include "scenes/catalogue.h"
+#include "scenes/trig.h"
 
 namespace avbd::scenes {
 namespace {
@@ -23,9 +23,9 @@ struct Card {
 
 std::vector<Card> plan() {
   std::vector<Card> cards;
-  const double rise = kLong * std::cos(kLean) + kThick * std::sin(kLean);
+  const double rise = kLong * cosine(kLean) + kThick * sine(kLean);
   // From the tip, where the two inner corners meet, to a leaning card's centre.
-  const double out = (kLong * std::sin(kLean) + kThick * std::cos(kLean)) / 2;
+  const double out = (kLong * sine(kLean) + kThick * cosine(kLean)) / 2;
   for (int k = 0; k < kStoreys; ++k) {
     const int tents = kStoreys - k;
     const double floor = k * (rise + kThick);

@@ -131,6 +131,15 @@ const std::vector<Scene>& all() {
   return scenes;
 }
 
+const std::vector<Scene>& large() {
+  static const std::vector<Scene> scenes = [] {
+    std::vector<Scene> list = crowdScenes();
+    list.push_back(manyRagdolls());
+    return list;
+  }();
+  return scenes;
+}
+
 const std::vector<Line>& lines() {
   static const std::vector<Line> list = collect();
   return list;
@@ -139,6 +148,8 @@ const std::vector<Line>& lines() {
 const Scene* find(std::string_view name) {
   for (const Scene& s : all())
     if (s.name == name || (!s.alias.empty() && s.alias == name)) return &s;
+  for (const Scene& s : large())
+    if (s.name == name) return &s;
   return nullptr;
 }
 

@@ -87,27 +87,28 @@ void setMotion(World& world, const Ragdoll& doll, Vec3d about, const Velocity& v
   }
 }
 
-constexpr int kSide = 5, kLayers = 2;  // 50 figures
-constexpr double kHalfPit = 3, kWallHeight = 5;
+constexpr int kLayers = 2;
+constexpr double kWallHeight = 5;
 
-void addPit(Build& build) {
+void addPit(Build& build, double half) {
   build.ground();
-  const float h = static_cast<float>(kWallHeight / 2), w = static_cast<float>(kHalfPit);
+  const float h = static_cast<float>(kWallHeight / 2), w = static_cast<float>(half);
   for (const double side : {-1.0, 1.0}) {
-    build.fixedBox("wall", {0.5f, h, w + 1}, {side * (kHalfPit + 0.5), kWallHeight / 2, 0});
-    build.fixedBox("wall", {w + 1, h, 0.5f}, {0, kWallHeight / 2, side * (kHalfPit + 0.5)});
+    build.fixedBox("wall", {0.5f, h, w + 1}, {side * (half + 0.5), kWallHeight / 2, 0});
+    build.fixedBox("wall", {w + 1, h, 0.5f}, {0, kWallHeight / 2, side * (half + 0.5)});
   }
 }
 
-// Two layers of 25, upright but tilted and turned at random, a metre apart.
-Model pitOfRagdolls(const Settings& settings) {
-  Build build("ragdolls", settings);
-  addPit(build);
+// Two layers of side x side, upright but tilted and turned at random, a metre apart.
+Model pitOfRagdolls(const Settings& settings, const char* name, int side) {
+  Build build(name, settings);
+  addPit(build, 0.6 * side);
   Draws draws(2024);
-  for (int n = 0; n < kSide * kSide * kLayers; ++n) {
-    const int layer = n / (kSide * kSide), row = n / kSide % kSide, column = n % kSide;
+  for (int n = 0; n < side * side * kLayers; ++n) {
+    const int layer = n / (side * side), row = n / side % side, column = n % side;
+    const double middleOf = (side - 1) / 2.0;
     const Quat turn = turned({0, 1, 0}, kPi * draws.next()) * turned({1, 0, 0}, 0.2 * draws.next());
-    const Vec3d middle{1.05 * (column - 2), 1.7 + 2.3 * layer, 1.05 * (row - 2)};
+    const Vec3d middle{1.05 * (column - middleOf), 1.7 + 2.3 * layer, 1.05 * (row - middleOf)};
     const Pose at{middle + rotate(turn, Vec3d{0, -0.9, 0}), turn};
     addRagdoll(build, "doll_" + std::to_string(n), at, {});
   }
@@ -143,7 +144,21 @@ Ragdoll addRagdoll(Build& build, const std::string& name, const Pose& at, const 
 std::vector<Scene> ragdollScenes() {
   Watch gaps;
   gaps.gap = true;
-  return {{"ragdolls", "", "50 ragdolls of 16 bodies dropped into a pit", pitOfRagdolls, 0, 600, gaps, checkRagdolls}};
+  const auto make = [](const Settings& s) { return pitOfRagdolls(s, "ragdolls", 5); };
+  return {{"ragdolls", "", "50 ragdolls of 16 bodies dropped into a pit", make, 0, 600, gaps, checkRagdolls}};
+}
+
+Scene manyRagdolls() {
+  Watch watch;
+  watch.gap = true;
+  watch.escaped = [](Vec3d p) { return !(p.y > 0 && std::abs(p.x) < 6 && std::abs(p.z) < 6); };
+  const auto make = [](const Settings& s) { return pitOfRagdolls(s, "ragdolls_200", 10); };
+  // Gaps of the last five seconds: those of the first impacts are what `ragdolls` is about.
+  return {
+      "ragdolls_200", "", "200 ragdolls of 16 bodies dropped into a pit", make, 0, 600, watch, [](const Evidence& e) {
+        return std::vector<Figure>{atMost("gap", e.gapLate, 0.005, "m"), atMost("escaped", e.escaped, 0, "bodies"),
+                                   holds("finite", e.finite)};
+      }};
 }
 
 std::vector<Line> ragdollLines() {

@@ -7,6 +7,7 @@
 #include "scenes/build.h"
 #include "scenes/catalogue.h"
 #include "scenes/trials.h"
+#include "scenes/trig.h"
 
 namespace avbd::scenes {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kLevels = 3, kUnloaded = 300, kLoaded = 10000, kBoxes = 8;
 constexpr double kPeriod = 10;  // [s] of the lift
-const double kAngle = std::acos(0.9), kRise = std::sin(kAngle);
+const double kAngle = 0.45102681179626236 /* acos 0.9 */, kRise = sine(kAngle);
 constexpr float kBoxHalf = 0.25f;
 constexpr Box kPlatform{0.5f, 0.1f, 1.5f}, kBar{0.5f, 0.05f, 0.05f};
 constexpr double kColumn = 0.5;  // x of the columns, either way
@@ -160,7 +161,7 @@ size_t platformOf(size_t bodies) { return bodies - kBoxes - 1; }
 
 // The lift's target is smooth, so that the platform does not jump where the arms turn about.
 void drive(Model& model, int64_t step, const Load& load) {
-  const double travel = -0.6 + 0.6 * std::cos(2 * kPi * static_cast<double>(step) * model.dt / kPeriod);
+  const double travel = -0.6 + 0.6 * cosine(2 * kPi * static_cast<double>(step) * model.dt / kPeriod);
   model.world.setDrive(model.joints[0].id,
                        {.stiffness = load.stiffness, .damping = load.damping, .position = static_cast<float>(travel)});
   if (step != kUnloaded) return;

@@ -44,7 +44,7 @@ class Checks(unittest.TestCase):
         self.assertEqual(status, 0, output)
 
     def test_good_tree(self):
-        for name in ("sizes", "layers", "types", "stages", "words", "readme"):
+        for name in ("sizes", "layers", "types", "stages", "words", "readme", "golden"):
             with self.subTest(name):
                 self.accepts(name, {})
 
@@ -112,6 +112,13 @@ class Checks(unittest.TestCase):
     def test_readme(self):
         self.objects("readme", {"samples/hello.cpp": "int main() { }\n"}, "does not show")
         self.objects("readme", {"CONTRIBUTING.md": "[x](docs/none.md)"}, "docs/none.md does not exist")
+
+    def test_golden(self):
+        kept = {"test/golden_hashes.txt": "chain krylov 1\n"}
+        line = "- Recorded hashes ded68617: the first ones\n"
+        self.objects("golden", {**kept, "CHANGELOG.md": "- Something else\n"}, "Recorded hashes ded68617")
+        self.objects("golden", {"test/golden_hashes.txt": "chain krylov 2\n", "CHANGELOG.md": line}, "no line")
+        self.accepts("golden", {**kept, "CHANGELOG.md": line})
 
 
 if __name__ == "__main__":

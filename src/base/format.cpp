@@ -2,6 +2,8 @@
 #include "base/format.h"
 
 #include <charconv>
+#include <cstdio>
+#include <cstdlib>
 #include <initializer_list>
 
 namespace avbd {
@@ -12,8 +14,16 @@ std::string shortest(Real value) {
   // A NaN's sign depends on the processor that made it; the text must not.
   if (value != value) return "nan";
   char buffer[32];
+#ifdef __cpp_lib_to_chars
   const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
   return std::string(buffer, result.ptr);
+#else  // libc++ 14 and older: of integers only
+  for (int digits = 1; digits <= 17; ++digits) {
+    std::snprintf(buffer, sizeof(buffer), "%.*g", digits, static_cast<double>(value));
+    if (static_cast<Real>(std::strtod(buffer, nullptr)) == value) break;
+  }
+  return buffer;
+#endif
 }
 
 template <class Real>

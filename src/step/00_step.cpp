@@ -2,6 +2,7 @@
 #include <chrono>
 
 #include "base/float_mode.h"
+#include "base/zone.h"
 #include "step/break_joints.h"
 #include "step/contacts.h"
 #include "step/publish_events.h"
@@ -17,6 +18,7 @@ namespace {
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void run(Stage stage, void (*f)(WorldData&, StepData&), WorldData& world, StepData& step) {
+  AVBD_ZONE(stageName(stage));
   const double start = now();
   f(world, step);
   world.report.seconds[static_cast<size_t>(stage)] += now() - start;
