@@ -6,14 +6,14 @@
 
 #include "app/failure.h"
 #include "app/near_names.h"
+#include "bench/bench.h"
 
 namespace avbd::cli {
 namespace {
 
 constexpr const char* kSolver = "Solver";
 
-void addSettings(CLI::App& command, scenes::Settings& s, std::string& solver) {
-  command.add_option("--workers", s.workers, "threads [1]")->group(kSolver);
+void addSolver(CLI::App& command, scenes::Settings& s, std::string& solver) {
   command.add_option("--substeps", s.substeps, "substeps of a step [1]")->group(kSolver);
   command.add_option("--iterations", s.iterations, "outer iterations of a substep [4]")->group(kSolver);
   command.add_option("--solver", solver, "krylov or sweep [krylov]")
@@ -24,6 +24,11 @@ void addSettings(CLI::App& command, scenes::Settings& s, std::string& solver) {
   command.add_option("--simd", s.simdWidth, "lanes: 1, 4, 8 or 16; 0 for the widest")
       ->check(CLI::IsMember({0, 1, 4, 8, 16}))
       ->group(kSolver);
+}
+
+void addSettings(CLI::App& command, scenes::Settings& s, std::string& solver) {
+  command.add_option("--workers", s.workers, "threads [1]")->group(kSolver);
+  addSolver(command, s, solver);
 }
 
 void setSolver(scenes::Settings& s, const std::string& solver) {
@@ -114,12 +119,19 @@ CLI::App* addInfo(CLI::App& app, InfoArguments& a) {
   return info;
 }
 
-CLI::App* addBench(CLI::App& app, BenchArguments& a, std::string& solver, std::string& peer) {
+CLI::App* addBench(CLI::App& app, BenchArguments& a, std::string& solver) {
   CLI::App* bench = app.add_subcommand("bench", "Time scenes and measure their errors; exit status 1 if a check fails");
   bench->add_option("scene", a.scenes, "names that `avbd scenes` lists")->required();
-  bench->add_option("--peer", peer, "another engine to run beside: bullet")->check(CLI::IsMember({"bullet"}));
+  std::vector<std::string> known;
+  for (const bench::Peer& peer : bench::peers()) known.push_back(peer.name);
+  bench->add_option("--peer", a.peers, "other engines to run beside: bullet, mujoco, ode; several with commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(known));
+  bench->add_option("--workers", a.workers, "threads [1]; several with commas: a record for each")
+      ->delimiter(',')
+      ->group(kSolver);
   bench->add_flag("--json", a.json, "a JSON object for each record");
-  addSettings(*bench, a.settings, solver);
+  addSolver(*bench, a.settings, solver);
   return bench;
 }
 
@@ -151,9 +163,9 @@ Arguments parseArguments(std::vector<std::string> args) {
   VerifyArguments verify;
   ConvertArguments convert;
   PlayArguments play;
-  std::string solver, peer;
+  std::string solver;
   CLI::App* runApp = addRun(app, run, solver);
-  CLI::App* benchApp = addBench(app, bench, solver, peer);
+  CLI::App* benchApp = addBench(app, bench, solver);
   CLI::App* verifyApp = addVerify(app, verify, solver);
   CLI::App* convertApp = addConvert(app, convert);
   CLI::App* playApp = addPlay(app, play);
@@ -179,7 +191,7 @@ Arguments parseArguments(std::vector<std::string> args) {
   if (benchApp->parsed()) {
     setSolver(bench.settings, solver);
     checkSettings(bench.settings);
-    bench.bullet = !peer.empty();
+    for (const int workers : bench.workers) checkSettings({.workers = workers});
     return bench;
   }
   if (verifyApp->parsed()) {

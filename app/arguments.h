@@ -41,8 +41,10 @@ struct RunArguments {
 
 struct BenchArguments {
   std::vector<std::string> scenes;
-  bool bullet = false, json = false;
-  scenes::Settings settings;
+  std::vector<std::string> peers;  ///< other engines, by name
+  std::vector<int> workers;        ///< one record for each; empty: one worker
+  bool json = false;
+  scenes::Settings settings;  ///< of which workers is not used
 };
 
 struct VerifyArguments {

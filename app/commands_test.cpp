@@ -51,20 +51,28 @@ TEST(Commands, ScenesAreListedWithTheirLetters) {
 
 TEST(Commands, BenchGivesARecordForEachEngine) {
   std::vector<std::string> args{"bench", "chain", "--json"};
-  if (bench::hasBullet()) args.insert(args.end(), {"--peer", "bullet"});
+  std::string peers;
+  size_t count = 1;
+  for (const bench::Peer& peer : bench::peers()) {
+    if (peer.built) peers += (count++ == 1 ? "" : ",") + std::string(peer.name);
+  }
+  if (count > 1) args.insert(args.end(), {"--peer", peers});
   const Invoked run = invoke(args);
   const std::vector<Json> records = objects(run.out);
-  ASSERT_EQ(records.size(), bench::hasBullet() ? 2u : 1u) << run.err;
+  ASSERT_EQ(records.size(), count) << run.err;
   const std::vector<std::string> expected{
-      "scene",           "engine",           "workers",          "steps",         "ms_median", "ms_p95",
-      "penetration_max", "penetration_mean", "displacement_max", "joint_gap_max", "check"};
+      "scene",         "engine",    "workers", "ratio",           "bodies",           "iterations",
+      "steps",         "ms_median", "ms_p95",  "penetration_max", "penetration_mean", "displacement_max",
+      "joint_gap_max", "check"};
   for (const Json& r : records) EXPECT_EQ(keysOf(r), expected);
   EXPECT_EQ(records[0]["scene"], "chain");
   EXPECT_EQ(records[0]["engine"], "avbd");
   EXPECT_GT(records[0]["ms_median"], 0);
   EXPECT_EQ(run.status, records[0]["check"] == "pass" ? 0 : 1);
-  if (records.size() > 1) {
-    EXPECT_NE(records[1]["engine"], "avbd");
+  for (size_t i = 1; i < records.size(); ++i) {
+    EXPECT_NE(records[i]["engine"], "avbd");
+    EXPECT_EQ(records[i]["bodies"], 51);
+    EXPECT_GT(records[i]["ratio"], 0);
   }
 }
 
@@ -74,6 +82,17 @@ TEST(Commands, BenchFailsWithTheSceneCheck) {
   ASSERT_EQ(objects(run.out).size(), 1u) << run.err;
   EXPECT_NE(objects(run.out)[0]["check"], "pass");
   EXPECT_EQ(run.status, kExitCheckFailed);
+}
+
+TEST(Commands, BenchComparesWorkersAndTellsWhatAPeerCannotBuild) {
+  std::vector<std::string> args{"bench", "hanging", "--workers", "1,2", "--json"};
+  const std::vector<Json> records = objects(invoke(args).out);
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_TRUE(records[0]["ratio"].is_null());
+  EXPECT_EQ(records[1]["workers"], 2);
+  EXPECT_GT(records[1]["ratio"], 0);
+  EXPECT_EQ(invoke({"bench", "hanging", "--workers", "1,0"}).status, kExitBadInput);
+  EXPECT_EQ(invoke({"bench", "hanging", "--peer", "nobody"}).status, kExitBadInput);
 }
 
 TEST(Commands, VerifyGivesARecordForEachFigure) {

@@ -6,6 +6,7 @@
 #include "app/failure.h"
 #include "app/near_names.h"
 #include "app/number_text.h"
+#include "scenes/large.h"
 
 namespace avbd::cli {
 

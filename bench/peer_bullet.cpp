@@ -1,6 +1,10 @@
 // Bullet as a peer: the same bodies, shapes and joints, its own defaults, one step a frame.
+#include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
+#include <avbd/height_field.h>
+#include <avbd/hull.h>
 #include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <unordered_map>
@@ -23,6 +27,29 @@ Pose fromBullet(const btTransform& t) {
   const btVector3 p = t.getOrigin();
   return {{p.x(), p.y(), p.z()}, {float(q.w()), float(q.x()), float(q.y()), float(q.z())}};
 }
+
+/// Keeps the heights that Bullet's shape only points to. Bullet centres the field between its lowest and highest point:
+/// with the range -h .. h that is where ours is.
+class HeightFieldShape final : public btHeightfieldTerrainShape {
+ public:
+  explicit HeightFieldShape(const HeightFieldData& data) : HeightFieldShape(data, heightsOf(data)) {}
+
+ private:
+  static std::vector<float> heightsOf(const HeightFieldData& data) {
+    std::vector<float> heights;
+    for (int r = 0; r < data.rows(); ++r)
+      for (int c = 0; c < data.columns(); ++c) heights.push_back(data.height(c, r));
+    return heights;
+  }
+  HeightFieldShape(const HeightFieldData& data, std::vector<float> heights)
+      : btHeightfieldTerrainShape(data.columns(), data.rows(), heights.data(), 1, -highest(data), highest(data), 1,
+                                  PHY_FLOAT, false),
+        heights_(std::move(heights)) {
+    setLocalScaling({data.spacingX(), 1, data.spacingZ()});
+  }
+  static btScalar highest(const HeightFieldData& data) { return std::max(data.upper().y, -data.lower().y); }
+  std::vector<float> heights_;  // moving keeps their address
+};
 
 [[noreturn]] void refuse(const char* field, const char* value, const char* range) {
   throw Error("benchBullet", field, value, range);
@@ -68,7 +95,7 @@ BulletWorld::BulletWorld(const World& source, const Layout& layout) {
         addFixed(source.fixedJoint(id));
         break;
       default:
-        refuse("joint", "TetVolume", "must be a ball or fixed joint");
+        refuse("joint", "another", "must be a ball or fixed joint");
     }
 }
 
@@ -92,6 +119,15 @@ std::unique_ptr<btCollisionShape> makeShape(const Geometry& geometry) {
   if (const auto* c = std::get_if<Capsule>(&geometry))
     return std::make_unique<btCapsuleShape>(c->radius, 2 * c->halfHeight);
   if (const auto* b = std::get_if<Box>(&geometry)) return std::make_unique<btBoxShape>(btVector3(b->x, b->y, b->z));
+  if (const auto* c = std::get_if<Cylinder>(&geometry))
+    return std::make_unique<btCylinderShape>(btVector3(c->radius, c->halfHeight, c->radius));
+  if (const auto* h = std::get_if<Hull>(&geometry)) {
+    auto hull = std::make_unique<btConvexHullShape>();
+    for (const Vec3 v : h->data->vertices()) hull->addPoint({v.x * h->scale.x, v.y * h->scale.y, v.z * h->scale.z});
+    return hull;
+  }
+  if (const auto* f = std::get_if<HeightField>(&geometry)) return std::make_unique<HeightFieldShape>(*f->data);
+  if (!std::holds_alternative<HalfSpace>(geometry)) refuse("shape", "another", "must be one of those that Bullet has");
   return std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0));
 }
 
@@ -193,14 +229,10 @@ void BulletWorld::addConstraint(std::unique_ptr<btTypedConstraint> constraint, b
 
 }  // namespace
 
-bool hasBullet() { return true; }
-
 BenchRecord benchBullet(const scenes::Scene& scene) {
-  const Model model = scene.make({});
-  const Layout layout = scenes::layoutOf(model.world);
-  BulletWorld engine(model.world, layout);
-  return toRecord(scene, "bullet", 1,
-                  scenes::observeRun(engine, layout, scene.watch, {scene.warmup, scene.steps, model.dt}));
+  return observePeer(scene, "bullet", [](const World& world, const Layout& layout) {
+    return std::make_unique<BulletWorld>(world, layout);
+  });
 }
 
 }  // namespace avbd::bench

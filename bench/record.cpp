@@ -37,7 +37,18 @@ BenchRecord toRecord(const scenes::Scene& scene, std::string engine, int workers
     r.check += (r.check.empty() ? "fail: " : ", ") + f.name + " " + measured;
   }
   if (r.check.empty()) r.check = "pass";
+  r.ratio = std::nan("");
   return r;
+}
+
+double costExponent(std::span<const BenchRecord> records) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const BenchRecord& r : records) {
+    const double lx = std::log(static_cast<double>(r.bodies)), ly = std::log(r.msMedian);
+    n += 1, x += lx, y += ly, xx += lx * lx, xy += lx * ly;
+  }
+  const double spread = n * xx - x * x;
+  return n > 1 && spread > 1e-9 ? (n * xy - x * y) / spread : std::nan("");
 }
 
 }  // namespace avbd::bench

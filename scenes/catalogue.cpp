@@ -5,6 +5,8 @@
 #include <array>
 #include <string_view>
 
+#include "scenes/large.h"
+
 namespace avbd::scenes {
 namespace {
 

@@ -11,9 +11,6 @@ std::vector<Scene> chainScenes();
 std::vector<Scene> netScenes();
 std::vector<Scene> scissorScenes();
 std::vector<Scene> ragdollScenes();
-/// For benchmarks alone.
-std::vector<Scene> crowdScenes();
-Scene manyRagdolls();
 
 /// The classic house of five storeys of leaning cards, made in the order that this seed draws.
 Model cardHouse(const Settings& settings, uint32_t seed);

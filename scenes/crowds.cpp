@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "scenes/build.h"
-#include "scenes/catalogue.h"
+#include "scenes/large.h"
 #include "scenes/trig.h"
 
 namespace avbd::scenes {

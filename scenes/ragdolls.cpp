@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "scenes/catalogue.h"
+#include "scenes/large.h"
 #include "scenes/trials.h"
 
 namespace avbd::scenes {

@@ -61,10 +61,8 @@ struct Line {
 };
 
 const std::vector<Scene>& all();
-/// Scenes that are too large for every test: benchmarks alone run them.
-const std::vector<Scene>& large();
 const std::vector<Line>& lines();
-/// By name or alias, of all and large ones; null if there is none.
+/// By name or alias; null if there is none.
 const Scene* find(std::string_view name);
 const Line* findLine(std::string_view name);
 
