@@ -30,6 +30,7 @@ std::vector<Line> restLines();
 std::vector<Line> frictionLines();
 std::vector<Line> motionLines();
 std::vector<Line> collisionLines();
+std::vector<Line> continuousLines();
 std::vector<Line> shapeLines();
 std::vector<Line> scaleLines();
 std::vector<Line> jointLines();

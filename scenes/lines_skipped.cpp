@@ -12,7 +12,6 @@ void skip(std::vector<Line>& list, const char* group, std::initializer_list<cons
 
 std::vector<Line> skippedLines() {
   std::vector<Line> list;
-  skip(list, "R", {"bullet"}, "continuous collision is not built yet");
   skip(list, "A", {"robots"}, "needs robots from Debian packages that a bare machine lacks; they are tested in io/");
   skip(list, "S",
        {"free_fall", "soft_spin", "bar", "cantilever", "poisson", "independence", "drape", "curtain", "stack_soft",

@@ -59,6 +59,9 @@ struct BodyDef {
   /// Outer iterations, 0 .. 1000; 0: the world's. All that touch or are jointed take the most of what their bodies ask
   /// for.
   int iterations = 0;
+  /// Stops where it would pass through something within a step (WorldDef::continuous). A kinematic body: takes along
+  /// what it would pass through.
+  bool continuous = true;
   uint64_t userData = 0;
 };
 

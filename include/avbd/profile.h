@@ -18,9 +18,10 @@ enum class Stage : uint8_t {
   SolveBlocks,
   UpdateRows,
   Velocities,
+  Continuous,
   Publish
 };
-inline constexpr size_t kStageCount = 10;
+inline constexpr size_t kStageCount = 11;
 /// Name of a stage as in its file: "pairs", "contacts", ... "publish".
 const char* stageName(Stage stage);
 
@@ -34,6 +35,8 @@ struct StepReport {
   uint32_t joints = 0;
   uint32_t islands = 0;
   uint32_t colors = 0;                        ///< of the block sweep; 0 where it did not run
+  uint32_t fastBodies = 0;                    ///< moved so far in the last substep that their way was searched
+  uint32_t impacts = 0;                       ///< found on those ways, each at its own time within the step
   uint32_t simdWidth = 0;                     ///< lanes used: 1, 4, 8 or 16
   std::array<double, kStageCount> seconds{};  ///< wall time of each stage
 };

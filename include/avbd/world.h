@@ -40,6 +40,9 @@ struct WorldDef {
   float maxDepenetrationSpeed = 3;
   float hitSpeed = 1;       ///< [m/s] > 0: approach speed from which a contact is a HitEvent
   bool moveEvents = false;  ///< list every body that moved in Events::moves
+  /// Bodies that move far for their size in a step have their way searched, and stop for the rest of it where they
+  /// would pass through something. They keep their velocity: the next step makes the impact.
+  bool continuous = true;
   PrimalSolver primalSolver = PrimalSolver::Krylov;
   int krylovIterations = 0;  ///< conjugate-gradient steps per outer iteration; 0 takes the default, <= 1000
   /// Where joints take their arms: 0 at the step's start (symplectic; unstable under heavy loads), 1 at its end
@@ -132,10 +135,12 @@ class World {
   void setLocks(BodyId id, uint8_t locks);
   void setMaxSpeeds(BodyId id, float linear, float angular);
   void setIterations(BodyId id, int iterations);  ///< as BodyDef::iterations
+  void setContinuous(BodyId id, bool continuous);  ///< as BodyDef::continuous
   float linearDamping(BodyId id) const;           ///< [1/s]
   float angularDamping(BodyId id) const;          ///< [1/s]
   float gravityScale(BodyId id) const;
   int iterations(BodyId id) const;         ///< as BodyDef::iterations
+  bool isContinuous(BodyId id) const;      ///< as BodyDef::continuous
   uint8_t locks(BodyId id) const;          ///< of Locks
   float maxLinearSpeed(BodyId id) const;   ///< [m/s]
   float maxAngularSpeed(BodyId id) const;  ///< [rad/s]

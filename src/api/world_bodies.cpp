@@ -185,6 +185,10 @@ void World::setIterations(BodyId id, int iterations) {
   body.iterations = iterations;
 }
 
+void World::setContinuous(BodyId id, bool continuous) {
+  bodyOf(impl_->data, id, "World::setContinuous").continuous = continuous;
+}
+
 void World::setMaxSpeeds(BodyId id, float linear, float angular) {
   const Path path("World::setMaxSpeeds");
   BodyData& body = bodyOf(impl_->data, id, "World::setMaxSpeeds");
@@ -198,6 +202,7 @@ float World::linearDamping(BodyId id) const { return bodyOf(impl_->data, id, "Wo
 float World::angularDamping(BodyId id) const { return bodyOf(impl_->data, id, "World::angularDamping").angularDamping; }
 float World::gravityScale(BodyId id) const { return bodyOf(impl_->data, id, "World::gravityScale").gravityScale; }
 int World::iterations(BodyId id) const { return bodyOf(impl_->data, id, "World::iterations").iterations; }
+bool World::isContinuous(BodyId id) const { return bodyOf(impl_->data, id, "World::isContinuous").continuous; }
 uint8_t World::locks(BodyId id) const { return bodyOf(impl_->data, id, "World::locks").locks; }
 float World::maxLinearSpeed(BodyId id) const { return bodyOf(impl_->data, id, "World::maxLinearSpeed").maxLinearSpeed; }
 float World::maxAngularSpeed(BodyId id) const {

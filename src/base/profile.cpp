@@ -23,6 +23,8 @@ const char* stageName(Stage stage) {
       return "update_rows";
     case Stage::Velocities:
       return "velocities";
+    case Stage::Continuous:
+      return "continuous";
     case Stage::Publish:
       return "publish";
   }

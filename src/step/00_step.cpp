@@ -42,6 +42,7 @@ void substep(WorldData& world, StepData& step) {
   run(Stage::SolveBlocks, solveBlocks, world, step);
   run(Stage::UpdateRows, updateRows, world, step);
   run(Stage::Velocities, updateVelocities, world, step);
+  run(Stage::Continuous, stopAtImpacts, world, step);
   run(Stage::Publish, publish, world, step);
 }
 
@@ -69,6 +70,7 @@ void Stepper::step(WorldData& world, float dt) {
   if (!jobs_) jobs_ = std::make_unique<Jobs>(world.def.workers, world.def.tasks);
   step.jobs = jobs_.get();
   world.report.seconds = {};
+  world.report.fastBodies = world.report.impacts = 0;
   if (world.def.substeps > 1) {
     step.bodiesBefore = world.bodies;
     step.jointsBefore = world.joints, step.d6Before = world.d6, step.linksBefore = world.links;

@@ -239,6 +239,7 @@ void publishEvents(WorldData& world, StepData& step) {
     pair->wasTouching = pair->touching;
     pair->touchBegins = pair->touching;
   }
+  for (const TriggerEvent& e : step.continuous.crossings) events.enters.push_back(e), events.leaves.push_back(e);
   const auto shapes = [](const TouchEvent& e) { return std::tie(e.shapeA, e.shapeB); };
   const auto trigger = [](const TriggerEvent& e) { return std::tie(e.trigger, e.visitor); };
   sortBy(events.begins, shapes), sortBy(events.ends, shapes);

@@ -13,6 +13,7 @@
 #include "solve/scalar_joint.h"
 #include "solve/sweep.h"
 #include "solve/tree_response.h"
+#include "step/continuous.h"
 #include "world/world_data.h"
 
 namespace avbd {
@@ -276,6 +277,8 @@ struct StepData {
   std::vector<uint32_t> rowOfEnd;  ///< body row over all batches, by index in end
   std::vector<uint32_t> endOf;     ///< index in end, by body slot
 
+  ContinuousData continuous;  // 75_continuous
+
   // 90_publish
   std::vector<uint64_t> touchChanges;   ///< keys of pairs that may have begun or ended to touch
   std::vector<uint8_t> loud;            ///< by lane of contacts: its publication makes more than its own forces
@@ -308,6 +311,7 @@ void predict(WorldData& world, StepData& step);
 void solveBlocks(WorldData& world, StepData& step);
 void updateRows(WorldData& world, StepData& step);
 void updateVelocities(WorldData& world, StepData& step);
+void stopAtImpacts(WorldData& world, StepData& step);
 void publish(WorldData& world, StepData& step);
 
 }  // namespace avbd

@@ -60,6 +60,7 @@ uint32_t addBody(WorldData& data, const BodyDef& def, const BodyPlan& plan) {
   body.angularDamping = def.angularDamping;
   body.gravityScale = def.gravityScale;
   body.iterations = def.iterations;
+  body.continuous = def.continuous;
   body.maxLinearSpeed = def.maxLinearSpeed;
   body.maxAngularSpeed = def.maxAngularSpeed;
   body.locks = def.locks;

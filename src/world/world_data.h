@@ -36,6 +36,7 @@ struct BodyData {
   BodyType type = BodyType::Dynamic;
   uint8_t locks = 0;
   bool massGiven = false;  ///< massProperties came from the user
+  bool continuous = true;  ///< as BodyDef::continuous
   uint64_t userData = 0;
 };
 

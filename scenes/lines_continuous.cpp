@@ -1,0 +1,90 @@
+// Acceptance, fast bodies: nothing passes through anything.
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/build.h"
+#include "scenes/catalogue.h"
+#include "scenes/trials.h"
+
+namespace avbd::scenes {
+namespace {
+
+constexpr float kBall = 0.05f;
+
+WorldDef weightless() {
+  WorldDef def;
+  def.gravity = {};
+  return def;
+}
+
+// From ten places, so that the steps do not happen to end at the wall.
+Figure ballAtWall(const Settings& settings, bool mesh) {
+  double farthest = -1e9;
+  for (int i = 0; i < 10; ++i) {
+    Build build("bullet", settings, weightless());
+    if (mesh) {
+      const std::vector<Vec3> corners{{0, -2, -2}, {0, -2, 2}, {0, 2, 2}, {0, 2, -2}};
+      const std::vector<std::array<uint32_t, 3>> triangles{{0, 1, 2}, {0, 2, 3}};
+      build.add("wall", {.type = BodyType::Static,
+                         .shape = Mesh{makeMesh({.vertices = corners, .triangles = triangles, .doubleSided = true})}});
+    } else {
+      build.fixedBox("wall", {0.01f, 2, 2}, {0, 0, 0});
+    }
+    const BodyId ball = build.ball("ball", kBall, {-10 - 0.37 * i, 0.1, 0}, 1, {{200, 0, 0}, {}});
+    Model model = build.take();
+    for (int k = 0; k < 30; ++k) {
+      model.world.step(static_cast<float>(kDt));
+      farthest = std::max(farthest, model.world.pose(ball).position.x);
+    }
+  }
+  return atMost("ball_x", farthest, 0, "m", mesh ? "wall=triangles" : "wall=box");
+}
+
+// A rod of 2 m about its middle, which it keeps; the post stands beside its end.
+Figure rodAtPost(const Settings& settings) {
+  double turned = -1e9;
+  for (int i = 0; i < 10; ++i) {
+    Build build("bullet", settings, weightless());
+    const double angle = 0.3 + 0.25 * i;
+    build.fixedBox("post", {0.02f, 1, 0.02f}, {0.9 * std::cos(angle), 0, -0.9 * std::sin(angle)});
+    BodyDef def{.angularVelocity = {0, 60, 0}, .shape = Box{1, 0.03f, 0.03f}, .mass = 2};
+    const BodyId rod = build.add("rod", def);
+    build.join(HingeJoint{}, {}, rod, {{}, along({0, 1, 0})});
+    Model model = build.take();
+    double sum = 0;
+    for (int k = 0; k < 30; ++k) {
+      const Quat before = model.world.pose(rod).rotation;
+      model.world.step(static_cast<float>(kDt));
+      const Quat step = model.world.pose(rod).rotation * conjugate(before);
+      sum += 2 * std::atan2(double{step.y}, double{step.w});
+      turned = std::max(turned, sum - angle);
+    }
+  }
+  return atMost("rod_beyond_post", turned, 0, "rad");
+}
+
+// What the ends of two bodies that fly at each other along x say.
+Figure ballsHeadOn(const Settings& settings) {
+  double least = 1e9;
+  for (int i = 0; i < 10; ++i) {
+    Build build("bullet", settings, weightless());
+    const BodyId left = build.ball("left", kBall, {-5 - 0.21 * i, 0, 0}, 1, {{100, 0, 0}, {}});
+    const BodyId right = build.ball("right", kBall, {5, 0.02, 0}, 1, {{-100, 0, 0}, {}});
+    Model model = build.take();
+    for (int k = 0; k < 30; ++k) {
+      model.world.step(static_cast<float>(kDt));
+      least = std::min(least, model.world.pose(right).position.x - model.world.pose(left).position.x);
+    }
+  }
+  return {"balls_order", "", least, 0, 1e3, "m"};
+}
+
+std::vector<Figure> bullet(const Settings& settings) {
+  return {ballAtWall(settings, false), ballAtWall(settings, true), rodAtPost(settings), ballsHeadOn(settings)};
+}
+
+}  // namespace
+
+std::vector<Line> continuousLines() { return {{"R", "bullet", bullet, ""}}; }
+
+}  // namespace avbd::scenes

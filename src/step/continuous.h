@@ -1,0 +1,97 @@
+// Parts of the stage 75_continuous.
+//
+// A body that moves far for its size in a step could pass through something that the contacts of the step know nothing
+// of. Its way from the start of the step to its end is searched for the first impact, in order of time: what the body
+// then does for the rest of the step depends on what it meets.
+// - Something that stands still, or another body that is fast itself: both stop where they touch.
+// - Something that goes on (a kinematic body, a slow body): it takes the fast body along.
+// Velocities stay, so momentum does: the next step finds a contact that is about to be hit, and solves it.
+#pragma once
+
+#include <avbd/events.h>
+
+#include <array>
+#include <vector>
+
+#include "collide/time_of_impact.h"
+#include "geom/aabb.h"
+#include "world/world_data.h"
+
+namespace avbd {
+
+struct StepData;
+
+/// How a body moves over a step: a point of it goes straight, and it turns steadily about that point.
+struct BodyMotion {
+  Vec3d center;   ///< the point, at the start
+  Vec3 arm;       ///< from there to the centre of mass, at the start
+  Quat rotation;  ///< at the start
+  Vec3 shift;     ///< [m] of the point
+  Vec3 turn;      ///< [rad]
+};
+/// At a time 0 .. 1 of the step; position: of the centre of mass.
+Pose at(const BodyMotion& motion, float time);
+BodyMotion motionOf(const WorldData& world, const StepData& step, uint32_t body);
+BodyMotion resting(const Pose& pose);
+/// From `time` on as if fixed to what moves so; where that does not turn, along the normal alone and only if pushed.
+BodyMotion carried(const Pose& pose, const BodyMotion& by, float time, Vec3 normal);
+ShapeMotion motionOf(const BodyMotion& body, const ShapeData& shape, Vec3d origin);
+/// Bounds of a shape on all its way.
+Aabb boundsOnWay(const BodyMotion& body, const ShapeData& shape, float radius);
+/// How far the motions of two bodies may bring them closer or apart, at most.
+float relativeWay(const BodyMotion& a, float radiusA, const BodyMotion& b, float radiusB);
+
+/// A body in the search: fast, or met by one that is.
+struct MovedBody {
+  enum class State : uint8_t { Free, Stopped, Carried };
+  uint32_t slot = kNone;
+  State state = State::Free;
+  bool isFast = false;
+  float time = 1;               ///< at which it was stopped or is carried from
+  uint32_t firstMeet = kNone;   ///< ShapesMeet::next leads on
+  BodyMotion motion;
+  BodyMotion before;  ///< up to `time`, where it is not free any more
+  Vec3 turned;        ///< [rad] what it turns in all, likewise
+  Aabb box;     ///< on all its way; of fast ones
+};
+
+/// Two shapes whose bounds meet on their way.
+struct ShapesMeet {
+  uint32_t body[2] = {kNone, kNone};   ///< in ContinuousData::bodies
+  uint32_t shape[2] = {kNone, kNone};  ///< slots; the first is convex
+  uint32_t next[2] = {kNone, kNone};   ///< the next one of body[k]
+  uint32_t asked = 0;                  ///< how often its impact was looked for
+};
+
+struct PlannedImpact {
+  float time = 0;
+  uint64_t key = 0;  ///< of the shapes
+  uint32_t meet = 0;
+  uint32_t asked = 0;  ///< void if ShapesMeet::asked has moved on
+  Vec3 normal;         ///< from the first shape to the second
+};
+
+struct ContinuousData {
+  std::vector<MovedBody> bodies;
+  std::vector<uint32_t> indexOf;  ///< by body slot: in `bodies`
+  std::vector<ShapesMeet> meets;
+  std::vector<PlannedImpact> queue;  ///< a heap
+  std::vector<uint32_t> byX;         ///< fast bodies by where they begin along x
+  std::vector<uint32_t> group;       ///< body slots that stop together
+  std::vector<uint32_t> changed;     ///< in `bodies`: by the last impact
+  std::vector<uint64_t> visits;      ///< triggers and fast bodies that may pass through them: shape slots
+  std::vector<TriggerEvent> crossings;  ///< triggers that were entered and left, of all substeps so far
+};
+
+inline constexpr float kFastWay = 0.5f;  ///< of a half thickness: who moves farther in a step is fast
+
+/// The convex shape of two first; of two convex ones the lower slot.
+std::array<uint32_t, 2> inOrder(const WorldData& world, uint32_t shapeA, uint32_t shapeB);
+/// Slots of the body and of all that joints fix to it, directly or through others; of too many: the body alone.
+void listGroup(const WorldData& world, uint32_t body, std::vector<uint32_t>& group);
+/// When the two shapes meet so that the rest of their way would take them through each other.
+Impact impactOf(const WorldData& world, const StepData& step, const ShapesMeet& meet, float from);
+/// Triggers that a fast body passed through between the poses at which overlaps are looked for.
+void findCrossings(WorldData& world, StepData& step);
+
+}  // namespace avbd

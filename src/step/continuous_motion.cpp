@@ -1,0 +1,118 @@
+// How bodies move over a step (continuous.h).
+#include <algorithm>
+
+#include "step/begin_rows.h"
+#include "step/step_data.h"
+#include "world/joints.h"
+
+namespace avbd {
+
+namespace {
+
+constexpr size_t kLargestGroup = 64;  ///< bodies: what hangs together in larger ones gives way by itself
+
+/// The point of a body that a joint holds in the world or on what no force moves, in the body's axes; else its centre.
+Vec3 heldPoint(const WorldData& world, uint32_t body) {
+  uint32_t next = kNone;
+  for (uint32_t j = world.bodies[body].firstJoint; j != kNone; j = next) {
+    const JointData& joint = world.joints[j];
+    const int side = sideOf(joint, body);
+    next = joint.next[side];
+    const bool holds = joint.type == JointType::Ball || joint.type == JointType::Fixed || joint.type == JointType::Hinge;
+    if (holds && joint.enabled && !isDynamic(world, joint.body[1 - side])) return joint.anchor[side];
+  }
+  return {};
+}
+
+float turningReach(Vec3 turn, float radius) { return std::min(length(turn), 2.0f) * radius; }
+
+}  // namespace
+
+Pose at(const BodyMotion& motion, float time) {
+  const Quat turn = quatFromVector(motion.turn * time);
+  return {motion.center + motion.shift * time + rotate(turn, motion.arm), unit(turn * motion.rotation)};
+}
+
+BodyMotion motionOf(const WorldData& world, const StepData& step, uint32_t slot) {
+  const BodyData& body = world.bodies[slot];
+  BodyMotion motion = resting({body.position, body.rotation});
+  if (body.type == BodyType::Kinematic) {
+    motion.shift = body.linearVelocity * step.h, motion.turn = body.angularVelocity * step.h;
+  } else if (body.type == BodyType::Dynamic) {
+    const uint32_t index = step.endOf[slot];
+    const float* d = step.d.data() + size_t(8) * step.rowOfEnd[index];
+    motion.turn = {d[4], d[5], d[6]};
+    const Vec3 held = heldPoint(world, slot), arm = rotate(body.rotation, held);
+    motion.center = motion.center + arm;
+    motion.arm = -arm;
+    motion.shift = toFloat(step.end[index].position + rotate(step.end[index].rotation, held) - motion.center);
+  }
+  return motion;
+}
+
+BodyMotion resting(const Pose& pose) { return {pose.position, {}, pose.rotation, {}, {}}; }
+
+BodyMotion carried(const Pose& pose, const BodyMotion& by, float time, Vec3 normal) {
+  BodyMotion motion = resting(pose);
+  if (by.turn == Vec3{}) {
+    const float pushed = dot(normal, by.shift);
+    motion.shift = normal * std::min(pushed, 0.0f);
+    motion.center = motion.center - motion.shift * time;
+    return motion;
+  }
+  // Back along the other's motion to the start.
+  const Quat back = quatFromVector(by.turn * -time);
+  motion.center = by.center;
+  motion.arm = rotate(back, toFloat(pose.position - by.center) - by.shift * time);
+  motion.rotation = unit(back * pose.rotation);
+  motion.shift = by.shift, motion.turn = by.turn;
+  return motion;
+}
+
+ShapeMotion motionOf(const BodyMotion& body, const ShapeData& shape, Vec3d origin) {
+  const Vec3 center = toFloat(body.center - origin);
+  return {{center + body.arm + rotate(body.rotation, shape.toMass.p), body.rotation * shape.toMass.q},
+          center,
+          body.shift,
+          body.turn};
+}
+
+Aabb boundsOnWay(const BodyMotion& body, const ShapeData& shape, float radius) {
+  const Vec3d mass = body.center + body.arm;
+  const Pose pose{mass + rotate(body.rotation, shape.toMass.p), body.rotation * shape.toMass.q};
+  Aabb box = bounds(shape.geom, pose, turningReach(body.turn, radius + length(body.arm)));
+  const Vec3 by = body.shift;
+  box.lower = box.lower + Vec3{std::min(by.x, 0.0f), std::min(by.y, 0.0f), std::min(by.z, 0.0f)};
+  box.upper = box.upper + Vec3{std::max(by.x, 0.0f), std::max(by.y, 0.0f), std::max(by.z, 0.0f)};
+  return box;
+}
+
+float relativeWay(const BodyMotion& a, float radiusA, const BodyMotion& b, float radiusB) {
+  return length(a.shift - b.shift) + turningReach(a.turn, radiusA + length(a.arm)) +
+         turningReach(b.turn, radiusB + length(b.arm));
+}
+
+std::array<uint32_t, 2> inOrder(const WorldData& world, uint32_t shapeA, uint32_t shapeB) {
+  const bool convexA = isConvex(world.shapes[shapeA].geom.type), convexB = isConvex(world.shapes[shapeB].geom.type);
+  if (!convexA || (convexB && shapeB < shapeA)) std::swap(shapeA, shapeB);
+  return {shapeA, shapeB};
+}
+
+void listGroup(const WorldData& world, uint32_t body, std::vector<uint32_t>& group) {
+  group.assign(1, body);
+  const auto add = [&](uint32_t other) {
+    if (isDynamic(world, other) && std::find(group.begin(), group.end(), other) == group.end()) group.push_back(other);
+  };
+  for (size_t i = 0; i < group.size() && group.size() <= kLargestGroup; ++i) {
+    uint32_t next = kNone;
+    for (uint32_t j = world.bodies[group[i]].firstJoint; j != kNone; j = next) {
+      const JointData& joint = world.joints[j];
+      next = joint.next[sideOf(joint, group[i])];
+      if (acts(world, j)) forEachBody(world, j, add);
+    }
+  }
+  if (group.size() > kLargestGroup) group.resize(1);
+  std::sort(group.begin(), group.end());
+}
+
+}  // namespace avbd
