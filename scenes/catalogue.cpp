@@ -108,7 +108,7 @@ std::vector<Line> collect() {
                            scaleLines,     jointLines,    limitLines,   driveLines,           driveTypeLines,
                            couplingLines,  customLines,   breakLines,   mechanismLines,       treeLines,
                            treeDriveLines, loopLines,     scissorLines, inverseDynamicsLines, ragdollLines,
-                           stateLines,     badInputLines, skippedLines, continuousLines})
+                           stateLines,     badInputLines, skippedLines, continuousLines,      rollbackLines})
     for (Line& line : group()) list.push_back(std::move(line));
   const auto rank = [](const Line& line) {
     return std::find(kOrder.begin(), kOrder.end(), line.name) - kOrder.begin();

@@ -48,6 +48,7 @@ std::vector<Line> scissorLines();
 std::vector<Line> inverseDynamicsLines();
 std::vector<Line> ragdollLines();
 std::vector<Line> stateLines();
+std::vector<Line> rollbackLines();
 std::vector<Line> badInputLines();
 /// What is not built yet, by name.
 std::vector<Line> skippedLines();

@@ -31,6 +31,9 @@ struct Figure {
   std::string unit;
 };
 
+/// Unit of a time over that of a step of the same run. `avbd verify` holds it against its bounds, no test does.
+inline constexpr const char* kOfAStep = "of a step";
+
 bool passes(const Figure& figure);
 Figure atMost(std::string name, double measured, double upper, std::string unit, std::string params = {});
 /// Within target (1 - tolerance) .. target (1 + tolerance).

@@ -12,6 +12,7 @@
 #include <avbd/tasks.h>
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -104,6 +105,9 @@ class World {
   void setSubsteps(int substeps);
   /// Hash over poses, velocities and row memories: equal if and only if (but for chance) the states are equal.
   uint64_t hash() const;
+  /// Of what each stage leaves to the steps to come, by Stage; 0 of those that leave nothing. Where two runs part, the
+  /// first that differs tells where. Made of the same and of some things more than hash().
+  std::array<uint64_t, kStageCount> stageHashes() const;
   std::vector<BodyId> bodies() const;  ///< in order of their slots
   std::vector<JointId> joints() const;
   size_t bodyCount() const;
@@ -241,6 +245,17 @@ class World {
   void setHitEvents(ShapeId id, bool wanted);
   bool contactHook(ShapeId id) const;
   void setContactHook(ShapeId id, bool wanted);
+
+  // Snapshots: all that the steps to come, and every call, depend on, with the ids. A world goes back to any of its own
+  // in place; so does any other that was made with an equal WorldDef (workers and simdWidth apart) and has, or had,
+  // equal hulls, meshes, height fields and custom families: a new world then becomes a copy. The contact hook and what
+  // else the user holds (a Mover, control values) stay as they are. From a snapshot on all goes the same, bit for bit.
+  size_t snapshotSize() const;                   ///< [bytes] of one taken now; takes as long as taking it
+  void save(std::vector<std::byte>& out) const;  ///< in place of what `out` holds; its memory is used again
+  size_t save(std::span<std::byte> out) const;   ///< returns its size; Error for a span that is too short
+  /// Goes back to (or on to) a snapshot. Throws Error, with the world as it was, for one that is cut short, damaged, of
+  /// another version of the library or of another world.
+  void restore(std::span<const std::byte> snapshot);
 
   // Queries (query.h): about where shapes are now. Queried geometries are convex: not HalfSpace, Mesh or HeightField.
   // Ties go to the lower shape id. Throw Error for arguments that are not finite, ways of no length, a dead body in the

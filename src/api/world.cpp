@@ -35,6 +35,7 @@ const StepReport& World::report() const { return impl_->data.report; }
 double World::time() const { return impl_->data.time; }
 const WorldDef& World::definition() const { return impl_->data.def; }
 uint64_t World::hash() const { return stateHash(impl_->data); }
+std::array<uint64_t, kStageCount> World::stageHashes() const { return avbd::stageHashes(impl_->data); }
 
 void World::setGravity(Vec3 gravity) {
   check(Path("World::setGravity") / "gravity", gravity, symmetric(kMaxAcceleration * impl_->data.def.lengthUnit));

@@ -7,6 +7,7 @@
 
 #include "api/scaled_hulls.h"
 #include "step/step.h"
+#include "world/shared_table.h"
 #include "world/world_data.h"
 
 namespace avbd {
@@ -16,6 +17,8 @@ struct World::Impl {
   Stepper stepper;
   std::mutex treeMutex;  ///< held by the query that fits the tree
   ScaledHulls scaledHulls;
+  SharedTable shared;                   ///< what snapshots name
+  std::unique_ptr<WorldData> restored;  ///< where one is read into
 };
 
 }  // namespace avbd

@@ -63,6 +63,30 @@ class HandlePool {
   /// Slots ever taken: the size that the caller's arrays need.
   size_t slotCount() const { return generations_.size(); }
 
+  /// What it was made of: with freeSlots() all that makes it again.
+  const std::vector<uint32_t>& generations() const { return generations_; }
+  const std::vector<uint32_t>& freeSlots() const { return free_; }  ///< the next one taken at the end
+  /// Becomes a pool of these lists, of which it takes the memory. False where they make none: it must then not be used.
+  bool restore(std::vector<uint32_t>& generations, std::vector<uint32_t>& freeSlots) {
+    generations_.swap(generations);
+    free_.swap(freeSlots);
+    alive_.assign(generations_.size(), 1);
+    for (const uint32_t slot : free_) {
+      if (slot >= alive_.size() || !alive_[slot]) return false;
+      alive_[slot] = 0;
+    }
+    // One whose generations are used up is neither alive nor free.
+    constexpr uint32_t kUsedUp = std::numeric_limits<uint32_t>::max();
+    count_ = 0;
+    for (uint32_t slot = 0; slot < alive_.size(); ++slot) {
+      const bool free = !alive_[slot];
+      if (generations_[slot] == 0 || (free && generations_[slot] == kUsedUp)) return false;
+      alive_[slot] = !free && generations_[slot] != kUsedUp;
+      count_ += alive_[slot];
+    }
+    return true;
+  }
+
   /// Calls f(slot) for all live slots in ascending order.
   template <class F>
   void forEach(F&& f) const {

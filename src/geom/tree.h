@@ -66,8 +66,27 @@ class DynamicTree {
   const std::vector<Node>& nodes() const { return nodes_; }
   /// Index of the topmost node, -1 while the tree is empty.
   int32_t root() const { return root_; }
+  /// Index of the first unused node, -1 if there is none.
+  int32_t firstFree() const { return free_; }
+
+  /// What a tree is made of again: of leaves box and userData, of inner nodes the children, of free nodes the next;
+  /// heights say which is which: 0, 1, -1.
+  struct Saved {
+    std::vector<Node> nodes;
+    int32_t root = -1, free = -1;
+  };
+  /// Becomes a tree of these nodes. False where they make none: it must then not be used.
+  bool restore(Saved&& saved);
+  /// Their memory, to be used again; the tree is empty then.
+  std::vector<Node> takeNodes() {
+    root_ = free_ = -1, leafCount_ = 0;
+    return std::move(nodes_);
+  }
 
  private:
+  static constexpr int32_t kUnlinked = -2;
+  bool linkFree();
+  bool linkUsed();
   Node& at(int32_t i) { return nodes_[static_cast<size_t>(i)]; }
   const Node& at(int32_t i) const { return nodes_[static_cast<size_t>(i)]; }
   int32_t takeNode();

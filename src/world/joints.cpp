@@ -16,10 +16,6 @@ void updateAnchor(const WorldData& data, uint32_t slot, JointData& joint, int si
   joint.anchor[side] = toFloat(joint.frame[side].position - toDouble(data.bodies[joint.body[side]].center));
 }
 
-bool excludes(const JointData& joint) {
-  return joint.enabled && !joint.collideConnected && joint.body[0] != kNone && joint.body[1] != kNone;
-}
-
 void unlink(WorldData& data, uint32_t slot, int side) {
   const uint32_t body = data.joints[slot].body[side];
   uint32_t* link = &data.bodies[body].firstJoint;
@@ -40,6 +36,12 @@ Quat innerAxes(int turned) {
   constexpr Quat kTurns[] = {{1, 0, 0, 0}, {0.5f, 0.5f, 0.5f, 0.5f}, {0.5f, -0.5f, -0.5f, -0.5f}};
   return kTurns[turned];
 }
+
+bool excludes(const JointData& joint) {
+  return joint.enabled && !joint.collideConnected && joint.body[0] != kNone && joint.body[1] != kNone;
+}
+
+bool isBreakable(const JointBreak& limits) { return std::isfinite(limits.force) || std::isfinite(limits.torque); }
 
 namespace {
 
@@ -65,8 +67,6 @@ uint32_t link(WorldData& data, uint32_t slot, const JointData& checked) {
   if (excludes(joint)) exclude(data, joint.body[0], joint.body[1]);
   return slot;
 }
-
-bool isBreakable(const JointBreak& limits) { return std::isfinite(limits.force) || std::isfinite(limits.torque); }
 
 void removeCouplingsOf(WorldData& data, uint32_t joint) {
   for (size_t i = 0; i < data.couplings.size();) {

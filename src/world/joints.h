@@ -43,6 +43,8 @@ void clearJointForces(WorldData& data);
 bool acts(const WorldData& data, uint32_t slot);
 void setEnabled(WorldData& data, uint32_t slot, bool enabled);
 void setBreaks(WorldData& data, uint32_t slot, const JointBreak& limits);
+bool isBreakable(const JointBreak& limits);                                              ///< some bound is finite
+bool excludes(const JointData& joint);                                                   ///< its bodies do not collide
 void setFrames(WorldData& data, uint32_t slot, const Pose& frameA, const Pose& frameB);  ///< checked before
 
 /// What the user excludes by hand: one of the pair's exclusions (pairs.h), beside those of its joints.

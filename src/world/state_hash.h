@@ -8,4 +8,7 @@ namespace avbd {
 /// Poses, velocities, pending forces, multipliers and contact memories of everything alive, with the ids.
 uint64_t stateHash(const WorldData& data);
 
+/// World::stageHashes().
+std::array<uint64_t, kStageCount> stageHashes(const WorldData& data);
+
 }  // namespace avbd

@@ -1,0 +1,359 @@
+// Snapshots: pairs, most of what a snapshot of a pile holds.
+//
+// A pair is coded by hand, as most of it follows from something else: its bodies from its shapes, two axes of its basis
+// from the third, and where a point is from where it stuck. Only what does not follow is written. What follows is
+// computed with +, - and * alone, the same on every processor.
+#include <algorithm>
+
+#include "avbd/rows/math.h"
+#include "world/snapshot_parts.h"
+
+namespace avbd::snapshot {
+namespace {
+
+/// Yes and no of a pair as bits.
+template <class Pair, class F>
+void eachFlag(Pair& pair, F&& f) {
+  f(pair.hasSurface), f(pair.isTrigger), f(pair.triggerIsA), f(pair.reports), f(pair.wantsHits), f(pair.hasHook);
+  f(pair.isFull), f(pair.touching), f(pair.wasTouching), f(pair.touchBegins), f(pair.landedSliding);
+}
+constexpr uint16_t kFlags = (1u << 11) - 1;
+
+uint16_t flagsOf(const PairData& pair) {
+  uint16_t flags = 0;
+  int bit = 0;
+  eachFlag(pair, [&](bool flag) { flags = static_cast<uint16_t>(flags | flag << bit++); });
+  return flags;
+}
+
+void setFlags(PairData& pair, uint16_t flags) {
+  int bit = 0;
+  eachFlag(pair, [&](bool& flag) { flag = (flags >> bit++ & 1) != 0; });
+}
+
+/// The coefficients of a pair; of a pile they are all the same.
+using Coefficients = std::array<float, 5>;
+Coefficients coefficientsOf(const PairData& p) {
+  return {p.staticFriction, p.friction, p.restitution, p.torsionalFriction, p.rollingFriction};
+}
+void setCoefficients(PairData& p, const Coefficients& c) {
+  p.staticFriction = c[0], p.friction = c[1], p.restitution = c[2], p.torsionalFriction = c[3],
+  p.rollingFriction = c[4];
+}
+
+/// Across a pair's normal, as the step makes it.
+struct Basis {
+  Vec3 t1, t2;
+};
+Basis basisOf(Vec3 n) {
+  if (n == Vec3{}) return {};
+  rows::V3<float> t1, t2;
+  rows::orthonormalBasis(rows::V3<float>{n.x, n.y, n.z}, t1, t2);
+  return {{t1.x, t1.y, t1.z}, {t2.x, t2.y, t2.z}};
+}
+
+struct Matrix {
+  Vec3 x, y, z;  ///< columns
+};
+Matrix matrixOf(Quat q) { return {rotate(q, Vec3{1, 0, 0}), rotate(q, Vec3{0, 1, 0}), rotate(q, Vec3{0, 0, 1})}; }
+Vec3 operator*(const Matrix& m, Vec3 v) { return m.x * v.x + m.y * v.y + m.z * v.z; }
+Vec3 transposed(const Matrix& m, Vec3 v) { return {dot(m.x, v), dot(m.y, v), dot(m.z, v)}; }
+
+/// What is known of a pair before it is read.
+struct Expected {
+  uint32_t shapeA = kNone;
+  std::array<uint32_t, 6> ends{};  ///< bodyA, bodyB, generations
+  uint16_t flags = 0, material = 0;
+  uint8_t slides = 0;
+  Vec3d origin;
+  Coefficients coefficients{};
+  uint32_t mean = 0;  ///< the next
+  uint32_t feature = 0;
+  Matrix turnA, turnB;  ///< of the bodies
+  Vec3 apart;           ///< from A to B
+
+  void meet(const WorldData& data, const PairData& pair, bool sameA) {
+    const uint32_t bodyA = data.shapes[pair.shapeA].body, bodyB = data.shapes[pair.shapeB].body;
+    ends[0] = bodyA, ends[1] = bodyB;
+    ends[2] = data.shapeIds.id(pair.shapeA).generation, ends[3] = data.shapeIds.id(pair.shapeB).generation;
+    ends[4] = bodyA == kNone ? 0 : data.bodyIds.id(bodyA).generation;
+    ends[5] = bodyB == kNone ? 0 : data.bodyIds.id(bodyB).generation;
+    if (bodyA == kNone || bodyB == kNone) return;
+    const BodyData &a = data.bodies[bodyA], &b = data.bodies[bodyB];
+    if (!sameA) origin = a.position, turnA = matrixOf(a.rotation);
+    turnB = matrixOf(b.rotation);
+    apart = toFloat(b.position - a.position);
+  }
+};
+
+// Floats as integers in their order, so that near ones differ by little. Each undoes itself.
+int32_t ordered(float x) {
+  const int32_t bits = std::bit_cast<int32_t>(x);
+  return bits < 0 ? bits ^ 0x7fffffff : bits;
+}
+float unordered(int32_t n) { return std::bit_cast<float>(n < 0 ? n ^ 0x7fffffff : n); }
+uint32_t zigzag(uint32_t d) { return d << 1 ^ (d >> 31 ? 0xffffffffu : 0u); }
+uint32_t unzigzag(uint32_t z) { return z >> 1 ^ (z & 1 ? 0xffffffffu : 0u); }
+
+template <class T>
+void put(std::byte*& to, const T& value) {
+  static_assert(kIsLeaf<T>);
+  std::memcpy(to, &value, sizeof(T));
+  to += sizeof(T);
+}
+template <class T>
+void put(const std::byte*& from, T& value) {
+  static_assert(kIsLeaf<T> && !std::is_same_v<T, bool>);
+  std::memcpy(&value, from, sizeof(T));
+  from += sizeof(T);
+}
+
+/// A vector by what it differs from the expected one: 0, 2, 3 or 4 bytes a number. Returns which.
+uint32_t putNear(std::byte*& to, Vec3 now, Vec3 expected) {
+  const auto apart = [](float x, float y) {
+    return zigzag(static_cast<uint32_t>(ordered(x)) - static_cast<uint32_t>(ordered(y)));
+  };
+  const uint32_t d[] = {apart(now.x, expected.x), apart(now.y, expected.y), apart(now.z, expected.z)};
+  const uint32_t all = d[0] | d[1] | d[2];
+  if (all == 0) return 0;
+  const uint32_t way = all < 1u << 16 ? 1 : all < 1u << 24 ? 2 : 3;
+  for (const uint32_t n : d) {
+    std::memcpy(to, &n, sizeof(n));  // what is beyond the width is overwritten
+    to += way + 1;
+  }
+  return way;
+}
+void putNear(const std::byte*& from, Vec3& now, Vec3 expected, uint32_t way) {
+  const auto next = [&](float x) {
+    if (way == 0) return x;
+    uint32_t n = 0;
+    std::memcpy(&n, from, sizeof(n));
+    n &= 0xffffffffu >> (8 * (3 - way));
+    from += way + 1;
+    return unordered(static_cast<int32_t>(static_cast<uint32_t>(ordered(x)) + unzigzag(n)));
+  };
+  now.x = next(expected.x), now.y = next(expected.y), now.z = next(expected.z);
+}
+
+/// More than any pair takes.
+constexpr size_t kPairBytes = 640;
+
+// Bits of a point's head.
+constexpr uint32_t kOtherName = 1u << 2, kPushes = 1u << 3, kRebounds = 1u << 4, kOtherSticks = 1u << 5;
+constexpr int kPlaceAt = 6, kAnchorAt = 8;
+constexpr uint32_t kPointBits = (1u << 10) - 1;
+
+void writePoint(std::byte*& to, const PairData& pair, int i, Expected& expected) {
+  const ManifoldPoint& place = pair.manifold.points[i];
+  const PointMemory& point = pair.points[i];
+  auto& [feature, lambda, anchorA, anchorB, rebound, sticks] = point;
+  std::byte* const head = to;
+  to += sizeof(uint16_t);
+  const uint32_t name = place.feature ^ expected.feature;
+  uint32_t bits = name == 0 ? 0 : name < 1u << 8 ? 1 : name < 1u << 16 ? 2 : 3;
+  std::memcpy(to, &name, sizeof(name));
+  to += (0x4210u >> 4 * bits) & 15u;
+  expected.feature = place.feature;
+  if (feature != place.feature) bits |= kOtherName, put(to, feature);
+  if (lambda != Vec3{} || !same(lambda, Vec3{})) bits |= kPushes, put(to, lambda);
+  if (!same(rebound, 0.0f)) bits |= kRebounds, put(to, rebound);
+  if (sticks != 1) bits |= kOtherSticks, put(to, sticks);
+  put(to, place.separation);
+  put(to, anchorA);
+  const Vec3 arm = expected.turnA * anchorA;
+  bits |= putNear(to, place.position, arm) << kPlaceAt;
+  bits |= putNear(to, anchorB, transposed(expected.turnB, arm - expected.apart)) << kAnchorAt;
+  const auto stored = static_cast<uint16_t>(bits);
+  std::memcpy(head, &stored, sizeof(stored));
+}
+
+void readPoint(const std::byte*& from, PairData& pair, int i, Expected& expected) {
+  ManifoldPoint& place = pair.manifold.points[i];
+  PointMemory& point = pair.points[i];
+  uint16_t bits = 0;
+  put(from, bits);
+  require(bits <= kPointBits, "a point of unknown flags");
+  uint32_t name = 0;
+  std::memcpy(&name, from, sizeof(name));
+  const uint32_t width = (0x4210u >> 4 * (bits & 3u)) & 15u;
+  from += width;
+  name = width == 0 ? 0 : name & 0xffffffffu >> (8 * (4 - width));
+  expected.feature ^= name;
+  point = {};
+  place.feature = point.feature = expected.feature;
+  point.sticks = 1;
+  if (bits & kOtherName) put(from, point.feature);
+  if (bits & kPushes) put(from, point.lambda);
+  if (bits & kRebounds) put(from, point.rebound);
+  if (bits & kOtherSticks) put(from, point.sticks);
+  put(from, place.separation);
+  put(from, point.anchorA);
+  const Vec3 arm = expected.turnA * point.anchorA;
+  putNear(from, place.position, arm, bits >> kPlaceAt & 3u);
+  putNear(from, point.anchorB, transposed(expected.turnB, arm - expected.apart), bits >> kAnchorAt & 3u);
+}
+
+// Bits of a pair's head.
+enum : uint32_t {
+  kShapeA = 1u << 0,
+  kEnds = 1u << 1,
+  kFlagBits = 1u << 2,
+  kPatch = 1u << 3,
+  kMaterial = 1u << 4,
+  kElement = 1u << 5,
+  kOrigin = 1u << 6,
+  kNormal = 1u << 7,
+  kManifoldNormal = 1u << 8,
+  kBasis = 1u << 9,
+  kCoefficients = 1u << 10,
+  kTurn = 1u << 11,
+  kTorque = 1u << 12,
+  kSlides = 1u << 13,
+  kMean = 1u << 14,
+  kOtherMean = 1u << 15,
+  kLastPoint = 1u << 16,
+};
+constexpr int kPointsAt = 17, kGoneAt = 20, kManifoldAt = 23, kPairBits = 26;
+
+int pointsOf(const PairData& pair) {
+  return std::max({pair.manifold.count, pair.pointCount, static_cast<int>(pair.gonePoints)});
+}
+
+/// Writes a value and sets its bit where it is not the expected one, which becomes this.
+template <class T>
+void putNew(std::byte*& to, uint32_t& bits, uint32_t bit, const T& now, T& expected) {
+  if (same(now, expected)) return;
+  bits |= bit;
+  put(to, now);
+  expected = now;
+}
+template <class T>
+void putNew(const std::byte*& from, uint32_t bits, uint32_t bit, T& now, T& expected) {
+  if (bits & bit) put(from, expected);
+  now = expected;
+}
+/// The same of what is expected to be this.
+template <class T>
+void putOther(std::byte*& to, uint32_t& bits, uint32_t bit, const T& now, const T& expected) {
+  if (same(now, expected)) return;
+  bits |= bit;
+  put(to, now);
+}
+template <class T>
+void putOther(const std::byte*& from, uint32_t bits, uint32_t bit, T& now, const T& expected) {
+  if (bits & bit)
+    put(from, now);
+  else
+    now = expected;
+}
+
+void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expected& expected) {
+  // All members by name, so that a new one does not compile before it is written here and read below.
+  auto& [shapeA, shapeB, bodyA, bodyB, generation, patch, material, element, hasSurface, isTrigger, triggerIsA, reports,
+         wantsHits, hasHook, isFull, touching, wasTouching, touchBegins, origin, manifold, normal, t1, t2, points,
+         pointCount, staticFriction, friction, restitution, torsionalFriction, rollingFriction, turn, torque, slides,
+         landedSliding, gonePoints, mean] = pair;
+  std::byte* const head = to;
+  to += sizeof(uint32_t);
+  uint32_t bits = static_cast<uint32_t>(pointCount) << kPointsAt | uint32_t(gonePoints) << kGoneAt |
+                  static_cast<uint32_t>(manifold.count) << kManifoldAt;
+  putNew(to, bits, kShapeA, shapeA, expected.shapeA);
+  put(to, shapeB);
+  expected.meet(data, pair, !(bits & kShapeA));
+  const std::array<uint32_t, 6> ends = {bodyA, bodyB, generation[0], generation[1], generation[2], generation[3]};
+  putOther(to, bits, kEnds, ends, expected.ends);
+  putNew(to, bits, kFlagBits, flagsOf(pair), expected.flags);
+  putOther(to, bits, kPatch, patch, uint16_t{0});
+  putNew(to, bits, kMaterial, material, expected.material);
+  putOther(to, bits, kElement, element, kNoElement);
+  putNew(to, bits, kOrigin, origin, expected.origin);
+  putOther(to, bits, kNormal, normal, Vec3{});
+  putOther(to, bits, kManifoldNormal, manifold.normal, normal);
+  const Basis basis = basisOf(normal);
+  if (!same(t1, basis.t1) || !same(t2, basis.t2)) bits |= kBasis, put(to, t1), put(to, t2);
+  putNew(to, bits, kCoefficients, coefficientsOf(pair), expected.coefficients);
+  putOther(to, bits, kTurn, turn, Vec3{});
+  putOther(to, bits, kTorque, torque, Vec3{});
+  putNew(to, bits, kSlides, slides, expected.slides);
+  if (mean != kNone) bits |= kMean;
+  if (mean != kNone && mean != expected.mean) bits |= kOtherMean, put(to, mean);
+  if (mean != kNone) expected.mean = mean + 1;
+  const int count = pointsOf(pair);
+  if (count == 0) putOther(to, bits, kLastPoint, manifold.points[0].position, Vec3{});
+  for (int i = 0; i < count; ++i) writePoint(to, pair, i, expected);
+  std::memcpy(head, &bits, sizeof(bits));
+}
+
+void readEnds(const std::byte*& from, uint32_t bits, PairData& pair, const Expected& expected) {
+  std::array<uint32_t, 6> ends;
+  putOther(from, bits, kEnds, ends, expected.ends);
+  pair.bodyA = ends[0], pair.bodyB = ends[1];
+  std::copy(ends.begin() + 2, ends.end(), pair.generation);
+}
+
+void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Expected& expected) {
+  uint32_t bits = 0;
+  put(from, bits);
+  require(bits >> kPairBits == 0, "a pair of unknown flags");
+  pair.pointCount = static_cast<int32_t>(bits >> kPointsAt & 7u);
+  pair.gonePoints = static_cast<uint8_t>(bits >> kGoneAt & 7u);
+  pair.manifold.count = static_cast<int>(bits >> kManifoldAt & 7u);
+  const int count = pointsOf(pair);
+  require(count <= kMaxManifoldPoints, "a pair of too many points");
+  putNew(from, bits, kShapeA, pair.shapeA, expected.shapeA);
+  put(from, pair.shapeB);
+  require(pair.shapeA < data.shapes.size() && pair.shapeB < data.shapes.size(), "a pair of shapes that there are not");
+  expected.meet(data, pair, !(bits & kShapeA));
+  readEnds(from, bits, pair, expected);
+  uint16_t flags = 0;
+  putNew(from, bits, kFlagBits, flags, expected.flags);
+  require(flags <= kFlags, "a pair of unknown kind");
+  setFlags(pair, flags);
+  putOther(from, bits, kPatch, pair.patch, uint16_t{0});
+  putNew(from, bits, kMaterial, pair.material, expected.material);
+  putOther(from, bits, kElement, pair.element, kNoElement);
+  putNew(from, bits, kOrigin, pair.origin, expected.origin);
+  putOther(from, bits, kNormal, pair.normal, Vec3{});
+  putOther(from, bits, kManifoldNormal, pair.manifold.normal, pair.normal);
+  const Basis basis = basisOf(pair.normal);
+  pair.t1 = basis.t1, pair.t2 = basis.t2;
+  if (bits & kBasis) put(from, pair.t1), put(from, pair.t2);
+  Coefficients coefficients;
+  putNew(from, bits, kCoefficients, coefficients, expected.coefficients);
+  setCoefficients(pair, coefficients);
+  putOther(from, bits, kTurn, pair.turn, Vec3{});
+  putOther(from, bits, kTorque, pair.torque, Vec3{});
+  putNew(from, bits, kSlides, pair.slides, expected.slides);
+  pair.mean = bits & kMean ? expected.mean : kNone;
+  if (bits & kOtherMean) put(from, pair.mean);
+  if (bits & kMean) expected.mean = pair.mean + 1;
+  if (count == 0) putOther(from, bits, kLastPoint, pair.manifold.points[0].position, Vec3{});
+  for (int i = 0; i < count; ++i) readPoint(from, pair, i, expected);
+}
+
+}  // namespace
+
+void codePairs(Writer& out, const WorldData& data) {
+  out.number(data.pairs.size());
+  Expected expected;
+  for (const PairData& pair : data.pairs) {
+    std::byte* to = out.room(kPairBytes);
+    writePair(to, data, pair, expected);
+    out.advance(to);
+  }
+  list(out, data.means);
+}
+
+void codePairs(Reader& in, WorldData& data) {
+  data.pairs.resize(in.count(2 * sizeof(uint32_t)));
+  Expected expected;
+  for (PairData& pair : data.pairs) {
+    const std::byte* const begin = in.piece(kPairBytes);
+    const std::byte* from = begin;
+    readPair(from, data, pair, expected);
+    in.advance(static_cast<size_t>(from - begin));
+  }
+  list(in, data.means);
+}
+
+}  // namespace avbd::snapshot
