@@ -24,6 +24,10 @@ void addSolver(CLI::App& command, scenes::Settings& s, std::string& solver) {
   command.add_option("--simd", s.simdWidth, "lanes: 1, 4, 8 or 16; 0 for the widest")
       ->check(CLI::IsMember({0, 1, 4, 8, 16}))
       ->group(kSolver);
+  command
+      .add_flag_callback(
+          "--sleep", [&s] { s.sleep = true; }, "bodies at rest fall asleep; else they do not")
+      ->group(kSolver);
 }
 
 void addSettings(CLI::App& command, scenes::Settings& s, std::string& solver) {

@@ -83,6 +83,7 @@ double energyOf(const Model& model) {
 Range ours(const Mechanism& m, double dt, int substeps, const Series& out) {
   WorldDef def;
   def.substeps = substeps;
+  def.sleep = false;
   Model model = readMjcfText(fileOf(m, dt), m.name, {.world = def});
   const double start = energyOf(model);
   Range range;

@@ -28,6 +28,7 @@ Mechanism make(float blend, Vec3 gravity) {
   WorldDef def;
   def.jointArmBlend = blend;
   def.gravity = gravity;
+  def.sleep = false;
   return {World(def), {}, {}};
 }
 

@@ -14,6 +14,7 @@ WorldDef apply(const Settings& settings, WorldDef def) {
   def.substeps = settings.substeps.value_or(def.substeps);
   def.krylovIterations = settings.krylovIterations.value_or(def.krylovIterations);
   def.simdWidth = settings.simdWidth.value_or(def.simdWidth);
+  def.sleep = settings.sleep.value_or(false);
   def.workers = settings.workers.value_or(def.workers);
   def.primalSolver = settings.primalSolver.value_or(def.primalSolver);
   return def;

@@ -108,7 +108,8 @@ std::vector<Line> collect() {
                            scaleLines,     jointLines,    limitLines,   driveLines,           driveTypeLines,
                            couplingLines,  customLines,   breakLines,   mechanismLines,       treeLines,
                            treeDriveLines, loopLines,     scissorLines, inverseDynamicsLines, ragdollLines,
-                           stateLines,     badInputLines, skippedLines, continuousLines,      rollbackLines})
+                           stateLines,     badInputLines, skippedLines, continuousLines,      rollbackLines,
+                           sleepLines})
     for (Line& line : group()) list.push_back(std::move(line));
   const auto rank = [](const Line& line) {
     return std::find(kOrder.begin(), kOrder.end(), line.name) - kOrder.begin();
@@ -128,6 +129,7 @@ const std::vector<Scene>& all() {
     append(list, netScenes());
     append(list, scissorScenes());
     append(list, ragdollScenes());
+    append(list, sleeperScenes());
     return list;
   }();
   return scenes;

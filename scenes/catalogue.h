@@ -11,6 +11,7 @@ std::vector<Scene> chainScenes();
 std::vector<Scene> netScenes();
 std::vector<Scene> scissorScenes();
 std::vector<Scene> ragdollScenes();
+std::vector<Scene> sleeperScenes();
 
 /// The classic house of five storeys of leaning cards, made in the order that this seed draws.
 Model cardHouse(const Settings& settings, uint32_t seed);
@@ -49,6 +50,7 @@ std::vector<Line> inverseDynamicsLines();
 std::vector<Line> ragdollLines();
 std::vector<Line> stateLines();
 std::vector<Line> rollbackLines();
+std::vector<Line> sleepLines();
 std::vector<Line> badInputLines();
 /// What is not built yet, by name.
 std::vector<Line> skippedLines();

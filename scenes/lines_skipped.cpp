@@ -17,7 +17,6 @@ std::vector<Line> skippedLines() {
        {"free_fall", "soft_spin", "bar", "cantilever", "poisson", "independence", "drape", "curtain", "stack_soft",
         "self", "inverted", "attach", "mixed"},
        "cloth and soft bodies are not built yet");
-  skip(list, "D", {"asleep"}, "sleep is not built yet");
   skip(list, "D", {"soak"}, "a million steps are not run yet");
   return list;
 }

@@ -17,6 +17,7 @@ namespace avbd::scenes {
 struct Settings {
   std::optional<int> iterations, substeps, krylovIterations, simdWidth, workers;
   std::optional<PrimalSolver> primalSolver;
+  std::optional<bool> sleep;  ///< off where it is not set
 };
 
 /// The definition with the settings applied.

@@ -62,6 +62,7 @@ struct BodyDef {
   /// Stops where it would pass through something within a step (WorldDef::continuous). A kinematic body: takes along
   /// what it would pass through.
   bool continuous = true;
+  bool canSleep = true;  ///< it may fall asleep by itself, with all that touches it (WorldDef::sleep)
   uint64_t userData = 0;
 };
 

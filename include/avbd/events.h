@@ -91,6 +91,8 @@ struct Events {
   std::vector<HitEvent> hits;
   std::vector<BreakEvent> breaks;
   std::vector<MoveEvent> moves;  ///< only with WorldDef::moveEvents
+  /// Dynamic bodies that fell asleep or woke since the end of the step before, by whatever cause.
+  std::vector<BodyId> sleeps, wakes;
 };
 
 /// A contact about to be solved, as the contact hook sees it. The fields below the line may be changed.

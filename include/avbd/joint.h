@@ -39,6 +39,7 @@ struct JointLimit {
   /// 0 .. 1: share of its speed with which a coordinate leaves a hard stop that it met faster than
   /// WorldDef::restitutionThreshold.
   float restitution = 0;
+  friend bool operator==(const JointLimit&, const JointLimit&) = default;
 };
 
 /// What a coordinate resists with by itself: force = stiffness (position - q) - damping dq/dt, without bound.
@@ -46,6 +47,7 @@ struct JointSpring {
   float stiffness = 0;  ///< [N/m, N m/rad] >= 0
   float damping = 0;    ///< [N s/m, N m s/rad] >= 0
   float position = 0;   ///< [m, rad] at rest
+  friend bool operator==(const JointSpring&, const JointSpring&) = default;
 };
 
 /// A spring and damper that pull a coordinate to a position and speed: force = stiffness (position - q) + damping
@@ -59,6 +61,7 @@ struct JointDrive {
   /// Stiffness and damping are those of a unit mass [1/s^2, 1/s]: the motion is the same for light and heavy bodies.
   bool acceleration = false;
   float force = 0;  ///< [N, N m] added; also of acceleration drives a force
+  friend bool operator==(const JointDrive&, const JointDrive&) = default;
 };
 
 enum class AxisMotion : uint8_t { Locked, Free };
@@ -118,6 +121,7 @@ struct SlerpDrive {
   Vec3 velocity{};                                          ///< [rad/s] of B against A, in frame A
   float maxForce = std::numeric_limits<float>::infinity();  ///< [N m] > 0 about each axis of frame A
   bool acceleration = false;                                ///< as in JointDrive
+  friend bool operator==(const SlerpDrive&, const SlerpDrive&) = default;
 };
 
 /// The general joint: each of six coordinates locked or free, with limit, drive and friction.

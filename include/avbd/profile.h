@@ -19,16 +19,18 @@ enum class Stage : uint8_t {
   UpdateRows,
   Velocities,
   Continuous,
+  Sleep,
   Publish
 };
-inline constexpr size_t kStageCount = 11;
+inline constexpr size_t kStageCount = 12;
 /// Name of a stage as in its file: "pairs", "contacts", ... "publish".
 const char* stageName(Stage stage);
 
 /// Figures of the last step.
 struct StepReport {
   uint64_t step = 0;      ///< how many steps this world has made
-  uint32_t bodies = 0;    ///< dynamic bodies
+  uint32_t bodies = 0;    ///< dynamic bodies that were awake
+  uint32_t asleep = 0;    ///< dynamic bodies that sleep at its end; what follows leaves out what belongs to sleepers
   uint32_t pairs = 0;     ///< pairs of shapes whose bounds overlap
   uint32_t contacts = 0;  ///< pairs with at least one contact point
   uint32_t points = 0;    ///< contact points

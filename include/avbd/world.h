@@ -50,6 +50,11 @@ struct WorldDef {
   /// (implicit; eats energy), between: a blend. -1 chooses for each joint and step by its stability number
   /// (docs/method.md).
   float jointArmBlend = -1;
+  /// Bodies that touch or are jointed fall asleep together once all of them have been slower than sleepSpeed for
+  /// sleepTime; what sleeps costs nothing, does not move and has no velocity.
+  bool sleep = true;
+  float sleepTime = 0.5f;    ///< [s] >= 0
+  float sleepSpeed = 0.02f;  ///< [lengthUnit/s] >= 0, of the centre of mass, and of the farthest point about it
   int simdWidth = 0;   ///< 1, 4, 8, 16; 0 takes the widest that this processor runs. Changes no bit of the result.
   TaskSystem tasks{};  ///< the user's own threads, in place of `workers`
 };
@@ -138,16 +143,24 @@ class World {
   void setGravityScale(BodyId id, float scale);
   void setLocks(BodyId id, uint8_t locks);
   void setMaxSpeeds(BodyId id, float linear, float angular);
-  void setIterations(BodyId id, int iterations);  ///< as BodyDef::iterations
+  void setIterations(BodyId id, int iterations);   ///< as BodyDef::iterations
   void setContinuous(BodyId id, bool continuous);  ///< as BodyDef::continuous
-  float linearDamping(BodyId id) const;           ///< [1/s]
-  float angularDamping(BodyId id) const;          ///< [1/s]
+  float linearDamping(BodyId id) const;            ///< [1/s]
+  float angularDamping(BodyId id) const;           ///< [1/s]
   float gravityScale(BodyId id) const;
   int iterations(BodyId id) const;         ///< as BodyDef::iterations
   bool isContinuous(BodyId id) const;      ///< as BodyDef::continuous
   uint8_t locks(BodyId id) const;          ///< of Locks
   float maxLinearSpeed(BodyId id) const;   ///< [m/s]
   float maxAngularSpeed(BodyId id) const;  ///< [rad/s]
+  // Sleep. Sleeping bodies wake when something that moves touches them, and by every call that changes them, what they
+  // touch or their joints. To make something that does not move wakes nothing.
+  bool isAwake(BodyId id) const;  ///< false of a static body, and of a kinematic one that does not move
+  void wake(BodyId id);           ///< a dynamic body and all that sleeps with it; of another, all that rests on it
+  void wakeAll();
+  void putToSleep(BodyId id);  ///< a dynamic body now, with all that it touched in the last step or is jointed to
+  bool canSleep(BodyId id) const;
+  void setCanSleep(BodyId id, bool canSleep);
   uint64_t userData(BodyId id) const;
   void setUserData(BodyId id, uint64_t data);
   std::vector<ShapeId> shapes(BodyId id) const;

@@ -4,6 +4,7 @@
 #include "world/limits.h"
 #include "world/measure.h"
 #include "world/pairs.h"
+#include "world/sleep.h"
 #include "world/state_hash.h"
 
 namespace avbd {
@@ -25,6 +26,7 @@ const StepReport& World::step(float dt) {
   if (dt < kMinSubstep * static_cast<float>(impl_->data.def.substeps)) {
     (path / "dt").refuse(toText(dt), "must be at least " + toText(kMinSubstep) + " for each substep");
   }
+  updateAwake(impl_->data);
   updateWishes(impl_->data);
   dropForgottenPairs(impl_->data);
   impl_->stepper.step(impl_->data, dt);
@@ -39,6 +41,7 @@ std::array<uint64_t, kStageCount> World::stageHashes() const { return avbd::stag
 
 void World::setGravity(Vec3 gravity) {
   check(Path("World::setGravity") / "gravity", gravity, symmetric(kMaxAcceleration * impl_->data.def.lengthUnit));
+  wakeAll(impl_->data);
   impl_->data.def.gravity = gravity;
 }
 

@@ -6,6 +6,7 @@
 #include "world/limits.h"
 #include "world/measure.h"
 #include "world/pairs.h"
+#include "world/sleep.h"
 
 namespace avbd {
 namespace {
@@ -16,6 +17,22 @@ BodyData& bodyOf(WorldData& data, BodyId id, const char* call) {
 
 BodyData& dynamicBodyOf(WorldData& data, BodyId id, const char* call) {
   return data.bodies[dynamicSlotOf(data, id, Path(call) / "id")];
+}
+
+uint32_t slotIn(const WorldData& data, const BodyData& body) {
+  return static_cast<uint32_t>(&body - data.bodies.data());
+}
+
+void wakeDynamic(WorldData& data, const BodyData& body) {
+  if (body.type == BodyType::Dynamic) wakeBody(data, slotIn(data, body));
+}
+
+// Of nothing a sleeper sleeps on.
+void give(WorldData& data, BodyData& body, Vec3 force, Vec3 torque) {
+  if (force == Vec3{} && torque == Vec3{}) return;
+  wakeBody(data, slotIn(data, body));
+  body.force = body.force + force;
+  body.torque = body.torque + torque;
 }
 
 // What an impulse would make of a velocity, refused where it is beyond all bounds.
@@ -81,9 +98,9 @@ Velocity World::velocity(BodyId id) const {
 
 void World::setVelocity(BodyId id, const Velocity& velocity) {
   const Path path("World::setVelocity");
-  BodyData& body = impl_->data.bodies[movableSlotOf(impl_->data, id, path / "id")];
+  const uint32_t slot = movableSlotOf(impl_->data, id, path / "id");
   checkVelocity(path / "velocity", velocity, impl_->data.def.lengthUnit);
-  setVelocityOf(body, velocity);
+  changeVelocity(impl_->data, slot, velocity);
 }
 
 float World::mass(BodyId id) const { return bodyOf(impl_->data, id, "World::mass").mass; }
@@ -102,12 +119,13 @@ void World::setMassProperties(BodyId id, const MassProperties& properties) {
 void World::addForce(BodyId id, Vec3 force) {
   BodyData& body = dynamicBodyOf(impl_->data, id, "World::addForce");
   check(Path("World::addForce") / "force", force, symmetric(kMaxForce));
-  body.force = body.force + force;
+  give(impl_->data, body, force, {});
 }
 
 void World::clearForces() {
   WorldData& data = impl_->data;
-  data.bodyIds.forEach([&](uint32_t slot) { data.bodies[slot].force = data.bodies[slot].torque = {}; });
+  updateAwake(data);
+  for (const uint32_t slot : data.sleep.awake) data.bodies[slot].force = data.bodies[slot].torque = {};
   clearJointForces(data);
 }
 
@@ -116,14 +134,13 @@ void World::addForceAt(BodyId id, Vec3 force, Vec3d point) {
   BodyData& body = dynamicBodyOf(impl_->data, id, "World::addForceAt");
   check(path / "force", force, symmetric(kMaxForce));
   checkPoint(path / "point", point, impl_->data.def.lengthUnit);
-  body.force = body.force + force;
-  body.torque = body.torque + cross(toFloat(point - body.position), force);
+  give(impl_->data, body, force, cross(toFloat(point - body.position), force));
 }
 
 void World::addTorque(BodyId id, Vec3 torque) {
   BodyData& body = dynamicBodyOf(impl_->data, id, "World::addTorque");
   check(Path("World::addTorque") / "torque", torque, symmetric(kMaxForce));
-  body.torque = body.torque + torque;
+  give(impl_->data, body, {}, torque);
 }
 
 void World::addImpulse(BodyId id, Vec3 impulse) {
@@ -132,7 +149,7 @@ void World::addImpulse(BodyId id, Vec3 impulse) {
   check(path / "impulse", impulse, symmetric(kMaxForce));
   const Vec3 reached = body.linearVelocity + impulse * (1 / body.mass);
   checkReached(path / "impulse", impulse, reached, kMaxSpeed * impl_->data.def.lengthUnit);
-  setVelocityOf(body, {reached, body.angularVelocity});
+  changeVelocity(impl_->data, slotIn(impl_->data, body), {reached, body.angularVelocity});
 }
 
 void World::addImpulseAt(BodyId id, Vec3 impulse, Vec3d point) {
@@ -145,7 +162,7 @@ void World::addImpulseAt(BodyId id, Vec3 impulse, Vec3d point) {
   const Vec3 angular = body.angularVelocity + spinFromImpulse(body, turn);
   checkReached(path / "impulse", impulse, linear, kMaxSpeed * impl_->data.def.lengthUnit);
   checkReached(path / "impulse", impulse, angular, kMaxSpin);
-  setVelocityOf(body, {linear, angular});
+  changeVelocity(impl_->data, slotIn(impl_->data, body), {linear, angular});
 }
 
 void World::addAngularImpulse(BodyId id, Vec3 impulse) {
@@ -154,7 +171,7 @@ void World::addAngularImpulse(BodyId id, Vec3 impulse) {
   check(path / "impulse", impulse, symmetric(kMaxForce));
   const Vec3 reached = body.angularVelocity + spinFromImpulse(body, impulse);
   checkReached(path / "impulse", impulse, reached, kMaxSpin);
-  setVelocityOf(body, {body.linearVelocity, reached});
+  changeVelocity(impl_->data, slotIn(impl_->data, body), {body.linearVelocity, reached});
 }
 
 void World::setDamping(BodyId id, float linear, float angular) {
@@ -162,6 +179,7 @@ void World::setDamping(BodyId id, float linear, float angular) {
   BodyData& body = bodyOf(impl_->data, id, "World::setDamping");
   check(path / "linear", linear, notNegative(kMaxRate));
   check(path / "angular", angular, notNegative(kMaxRate));
+  wakeDynamic(impl_->data, body);
   body.linearDamping = linear;
   body.angularDamping = angular;
 }
@@ -169,12 +187,14 @@ void World::setDamping(BodyId id, float linear, float angular) {
 void World::setGravityScale(BodyId id, float scale) {
   BodyData& body = bodyOf(impl_->data, id, "World::setGravityScale");
   check(Path("World::setGravityScale") / "scale", scale, symmetric(kMaxRate));
+  wakeDynamic(impl_->data, body);
   body.gravityScale = scale;
 }
 
 void World::setLocks(BodyId id, uint8_t locks) {
   BodyData& body = bodyOf(impl_->data, id, "World::setLocks");
   checkLocks(Path("World::setLocks") / "locks", locks);
+  wakeDynamic(impl_->data, body);
   body.locks = locks;
   stopLockedAxes(body);
 }
@@ -182,6 +202,7 @@ void World::setLocks(BodyId id, uint8_t locks) {
 void World::setIterations(BodyId id, int iterations) {
   BodyData& body = bodyOf(impl_->data, id, "World::setIterations");
   check(Path("World::setIterations") / "iterations", iterations, Range{0, kMaxIterations});
+  wakeDynamic(impl_->data, body);
   body.iterations = iterations;
 }
 
@@ -194,6 +215,7 @@ void World::setMaxSpeeds(BodyId id, float linear, float angular) {
   BodyData& body = bodyOf(impl_->data, id, "World::setMaxSpeeds");
   check(path / "linear", linear, positive(kMaxSpeed * impl_->data.def.lengthUnit));
   check(path / "angular", angular, positive(kMaxSpin));
+  wakeDynamic(impl_->data, body);
   body.maxLinearSpeed = linear;
   body.maxAngularSpeed = angular;
 }

@@ -3,6 +3,7 @@
 #include "world/bodies.h"
 #include "world/check.h"
 #include "world/limits.h"
+#include "world/sleep.h"
 
 namespace avbd {
 namespace {
@@ -42,7 +43,7 @@ void World::setVelocities(std::span<const BodyId> ids, std::span<const Velocity>
     movableSlotOf(impl_->data, ids[i], idsPath[i]);
     checkVelocity(inPath[i], in[i], impl_->data.def.lengthUnit);
   }
-  for (size_t i = 0; i < ids.size(); ++i) setVelocityOf(impl_->data.bodies[impl_->data.bodyIds.slot(ids[i])], in[i]);
+  for (size_t i = 0; i < ids.size(); ++i) changeVelocity(impl_->data, impl_->data.bodyIds.slot(ids[i]), in[i]);
 }
 
 void World::addForces(std::span<const BodyId> ids, std::span<const Vec3> forces) {
@@ -54,8 +55,10 @@ void World::addForces(std::span<const BodyId> ids, std::span<const Vec3> forces)
     check(forcesPath[i], forces[i], symmetric(kMaxForce));
   }
   for (size_t i = 0; i < ids.size(); ++i) {
-    BodyData& body = impl_->data.bodies[impl_->data.bodyIds.slot(ids[i])];
-    body.force = body.force + forces[i];
+    const uint32_t slot = impl_->data.bodyIds.slot(ids[i]);
+    if (forces[i] == Vec3{}) continue;
+    wakeBody(impl_->data, slot);
+    impl_->data.bodies[slot].force = impl_->data.bodies[slot].force + forces[i];
   }
 }
 

@@ -4,6 +4,7 @@
 #include "world/check_pair.h"
 #include "world/joint_coordinates.h"
 #include "world/joints.h"
+#include "world/sleep.h"
 
 namespace avbd {
 namespace {
@@ -70,19 +71,22 @@ AxisKind kindOf(const WorldData& data, JointId id, JointAxis axis) {
   return {isSwing(data, id, axis), axis >= JointAxis::Twist};
 }
 
-/// `axis` with its `part` replaced must be sound as a whole.
+/// `axis` with its `part` replaced must be sound as a whole. A joint that is told what it knows sleeps on.
 template <class Part>
-void setPart(const WorldData& data, D6Axis& axis, Part D6Axis::*part, const Part& value, const Path& path,
+bool setPart(const WorldData& data, D6Axis& axis, Part D6Axis::*part, const Part& value, const Path& path,
              AxisKind kind) {
   D6Axis changed = axis;
   changed.*part = value;
   checkAxis(path, changed, kind.swing, kind.angular, static_cast<double>(data.def.lengthUnit));
+  const bool changes = !(axis.*part == value);
   axis = changed;
+  return changes;
 }
 
 template <class Part>
 void setCouplingPart(WorldData& data, JointId id, Part D6Axis::*part, const Part& value, const char* call) {
-  setPart(data, freeCoupling(data, id, call), part, value, Path(call), kOfCoupling);
+  if (setPart(data, freeCoupling(data, id, call), part, value, Path(call), kOfCoupling))
+    wakeJoint(data, data.jointIds.slot(id));
 }
 
 }  // namespace
@@ -107,7 +111,8 @@ JointCoordinate World::coordinate(JointId id) const {
 
 void World::setLimit(JointId id, JointAxis axis, const JointLimit& limit) {
   D6Axis& to = freeAxis(impl_->data, id, axis, "World::setLimit");
-  setPart(impl_->data, to, &D6Axis::limit, limit, Path("World::setLimit"), kindOf(impl_->data, id, axis));
+  if (setPart(impl_->data, to, &D6Axis::limit, limit, Path("World::setLimit"), kindOf(impl_->data, id, axis)))
+    wakeJoint(impl_->data, impl_->data.jointIds.slot(id));
 }
 
 void World::setLimit(JointId id, const JointLimit& limit) {
@@ -123,7 +128,8 @@ void World::setDrive(JointId id, JointAxis axis, const JointDrive& drive) {
   const bool slerps = axis >= JointAxis::Twist && (d6.slerp.stiffness > 0 || d6.slerp.damping > 0);
   if (slerps && (drive.stiffness > 0 || drive.damping > 0))
     (path / "drive").refuse("a drive", "must have neither stiffness nor damping beside a slerp drive");
-  setPart(impl_->data, to, &D6Axis::drive, drive, path, kindOf(impl_->data, id, axis));
+  if (setPart(impl_->data, to, &D6Axis::drive, drive, path, kindOf(impl_->data, id, axis)))
+    wakeJoint(impl_->data, impl_->data.jointIds.slot(id));
 }
 
 void World::setDrive(JointId id, const JointDrive& drive) {
@@ -134,7 +140,8 @@ void World::setDrive(JointId id, const JointDrive& drive) {
 
 void World::setSpring(JointId id, JointAxis axis, const JointSpring& spring) {
   D6Axis& to = freeAxis(impl_->data, id, axis, "World::setSpring");
-  setPart(impl_->data, to, &D6Axis::spring, spring, Path("World::setSpring"), kindOf(impl_->data, id, axis));
+  if (setPart(impl_->data, to, &D6Axis::spring, spring, Path("World::setSpring"), kindOf(impl_->data, id, axis)))
+    wakeJoint(impl_->data, impl_->data.jointIds.slot(id));
 }
 
 void World::setSpring(JointId id, const JointSpring& spring) {
@@ -152,8 +159,10 @@ void World::setSlerp(JointId id, const SlerpDrive& drive) {
     for (size_t i = 3; i < 6; ++i)
       if (d6.axis[i].motion == AxisMotion::Locked || d6.axis[i].drive.stiffness > 0 || d6.axis[i].drive.damping > 0)
         (path / "id").refuse(toText(id), "must name a joint whose angles are all free and without drives");
-  d6.slerp = drive;
-  d6.slerp.rotation = checkedRotation(path / "drive" / "rotation", drive.rotation);
+  SlerpDrive wanted = drive;
+  wanted.rotation = checkedRotation(path / "drive" / "rotation", drive.rotation);
+  if (!(d6.slerp == wanted)) wakeJoint(impl_->data, slot);
+  d6.slerp = wanted;
 }
 
 void World::addJointForce(JointId id, JointAxis axis, float force) {
@@ -161,6 +170,7 @@ void World::addJointForce(JointId id, JointAxis axis, float force) {
   freeAxis(impl_->data, id, axis, "World::addJointForce");
   check(path / "force", force, symmetric(kMaxForce));
   D6Data& d6 = impl_->data.d6[impl_->data.jointIds.slot(id)];
+  if (force != 0) wakeJoint(impl_->data, impl_->data.jointIds.slot(id));
   d6.force[innerAxis(d6, axis)] += force;
   impl_->data.jointForces = true;
 }
@@ -171,7 +181,9 @@ void World::addJointForce(JointId id, float force) {
     return addJointForce(id, freeAxisOf(impl_->data, id, "World::addJointForce"), force);
   freeCoupling(impl_->data, id, "World::addJointForce");
   check(path / "force", force, symmetric(kMaxForce));
-  impl_->data.links[impl_->data.jointIds.slot(id)].force += force;
+  const uint32_t slot = impl_->data.jointIds.slot(id);
+  if (force != 0) wakeJoint(impl_->data, slot);
+  impl_->data.links[slot].force += force;
   impl_->data.jointForces = true;
 }
 
@@ -202,6 +214,7 @@ void World::setBreakLimits(JointId id, const JointBreak& limits) {
   const Path path("World::setBreakLimits");
   const uint32_t slot = slotOf(impl_->data, id, path / "id");
   checkBreak(path / "limits", limits);
+  wakeJoint(impl_->data, slot);
   setBreaks(impl_->data, slot, limits);
 }
 

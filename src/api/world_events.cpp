@@ -1,11 +1,15 @@
 // Events of the last step and the contact hook.
 #include "api/world_impl.h"
 #include "world/check.h"
+#include "world/sleep.h"
 
 namespace avbd {
 
 const Events& World::events() const { return impl_->data.events; }
-void World::setContactHook(std::function<bool(ContactPlan&)> hook) { impl_->data.contactHook = std::move(hook); }
+void World::setContactHook(std::function<bool(ContactPlan&)> hook) {
+  wakeAll(impl_->data);
+  impl_->data.contactHook = std::move(hook);
+}
 
 namespace {
 
@@ -13,7 +17,8 @@ ShapeData& shapeOf(WorldData& data, ShapeId id, const char* call) {
   return data.shapes[slotOf(data, id, Path(call) / "id")];
 }
 
-void wish(WorldData& data, bool& flag, bool wanted) {
+void wish(WorldData& data, const ShapeData& shape, bool& flag, bool wanted) {
+  if (flag != wanted) wakeBody(data, shape.body);
   data.wishesChanged = data.wishesChanged || flag != wanted;
   flag = wanted;
 }
@@ -26,17 +31,19 @@ bool World::hitEvents(ShapeId id) const { return shapeOf(impl_->data, id, "World
 bool World::contactHook(ShapeId id) const { return shapeOf(impl_->data, id, "World::contactHook").contactHook; }
 
 void World::setContactEvents(ShapeId id, bool wanted) {
-  wish(impl_->data, shapeOf(impl_->data, id, "World::setContactEvents").contactEvents, wanted);
+  ShapeData& shape = shapeOf(impl_->data, id, "World::setContactEvents");
+  wish(impl_->data, shape, shape.contactEvents, wanted);
 }
 
 void World::setHitEvents(ShapeId id, bool wanted) {
-  wish(impl_->data, shapeOf(impl_->data, id, "World::setHitEvents").hitEvents, wanted);
+  ShapeData& shape = shapeOf(impl_->data, id, "World::setHitEvents");
+  wish(impl_->data, shape, shape.hitEvents, wanted);
 }
 
 void World::setContactHook(ShapeId id, bool wanted) {
-  bool& flag = shapeOf(impl_->data, id, "World::setContactHook").contactHook;
-  impl_->data.hookedShapes = impl_->data.hookedShapes + wanted - flag;
-  wish(impl_->data, flag, wanted);
+  ShapeData& shape = shapeOf(impl_->data, id, "World::setContactHook");
+  impl_->data.hookedShapes = impl_->data.hookedShapes + wanted - shape.contactHook;
+  wish(impl_->data, shape, shape.contactHook, wanted);
 }
 
 }  // namespace avbd

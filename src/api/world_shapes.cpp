@@ -4,6 +4,7 @@
 #include "world/check.h"
 #include "world/mass.h"
 #include "world/pairs.h"
+#include "world/sleep.h"
 
 namespace avbd {
 namespace {
@@ -29,6 +30,7 @@ ShapeId World::create(BodyId id, const ShapeDef& def) {
     mass = shapesMass(all, data.bodies[body].massScale);
     if (mass.mass != 0) checkShapesMass(path / "density", mass);
   }
+  if (isDynamic(data, body)) wakeBody(data, body);
   const uint32_t slot = addShape(data, body, shape);
   if (mass.mass != 0) setMass(data, body, mass);
   return data.shapeIds.id(slot);
@@ -51,6 +53,7 @@ void World::destroy(ShapeId id) {
     mass = shapesMass(rest, data.bodies[body].massScale);
     if (mass.mass != 0) checkShapesMass(path / "id", mass);
   }
+  wakeBody(data, body);
   forgetPairsOfShape(data, slot);
   removeShape(data, slot);
   // A body never becomes massless: without shapes that have mass it keeps what it had.
@@ -67,6 +70,7 @@ void World::setMaterial(ShapeId id, const Material& material) {
   ShapeData& shape = shapeOf(impl_->data, id, "World::setMaterial");
   const Path path("World::setMaterial");
   checkMaterial(path / "material", material);
+  wakeBody(impl_->data, shape.body);
   shape.material = material;
 }
 
@@ -77,6 +81,7 @@ std::vector<Material> World::materials(ShapeId id) const {
 void World::setMaterials(ShapeId id, std::span<const Material> materials) {
   ShapeData& shape = shapeOf(impl_->data, id, "World::setMaterials");
   checkMaterials(Path("World::setMaterials") / "materials", materials, shape.geometry);
+  wakeBody(impl_->data, shape.body);
   shape.materials.assign(materials.begin(), materials.end());
 }
 
@@ -84,9 +89,12 @@ Filter World::filter(ShapeId id) const { return shapeOf(impl_->data, id, "World:
 
 void World::setFilter(ShapeId id, const Filter& filter) {
   const uint32_t slot = slotOf(impl_->data, id, Path("World::setFilter") / "id");
+  const uint32_t body = impl_->data.shapes[slot].body;
+  wakeBody(impl_->data, body);
   impl_->data.shapes[slot].filter = filter;
   forgetPairsOfShape(impl_->data, slot);
   markUnpaired(impl_->data, slot);
+  if (!isDynamic(impl_->data, body)) wakeAround(impl_->data, body);
 }
 
 uint64_t World::userData(ShapeId id) const { return shapeOf(impl_->data, id, "World::userData").userData; }

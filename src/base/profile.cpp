@@ -25,6 +25,8 @@ const char* stageName(Stage stage) {
       return "velocities";
     case Stage::Continuous:
       return "continuous";
+    case Stage::Sleep:
+      return "sleep";
     case Stage::Publish:
       return "publish";
   }

@@ -21,9 +21,9 @@ bool Sight::sees(uint32_t slot) const {
 }
 
 void freshenTree(WorldData& data) {
-  data.bodyIds.forEach([&](uint32_t slot) {
+  for (const uint32_t slot : data.sleep.awake) {
     const BodyData& body = data.bodies[slot];
-    if (body.type == BodyType::Static) return;
+    if (!data.bodyIds.isAliveSlot(slot) || body.type == BodyType::Static) continue;
     for (uint32_t s = body.firstShape; s != kNone; s = data.shapes[s].next) {
       const ShapeData& shape = data.shapes[s];
       const Pose pose = shapePose(data, shape);
@@ -31,7 +31,7 @@ void freshenTree(WorldData& data) {
       data.tree.move(shape.proxy, bounds(shape.geom, pose, kFatMargin * data.def.lengthUnit));
       markUnpaired(data, s);
     }
-  });
+  }
 }
 
 }  // namespace avbd

@@ -7,6 +7,7 @@
 #include "step/contacts.h"
 #include "step/publish_events.h"
 #include "step/settings.h"
+#include "step/sleeping.h"
 #include "step/step.h"
 #include "step/step_data.h"
 #include "world/joints.h"
@@ -43,23 +44,22 @@ void substep(WorldData& world, StepData& step) {
   run(Stage::UpdateRows, updateRows, world, step);
   run(Stage::Velocities, updateVelocities, world, step);
   run(Stage::Continuous, stopAtImpacts, world, step);
+  run(Stage::Sleep, chooseSleepers, world, step);
   run(Stage::Publish, publish, world, step);
 }
 
 void forgetForces(WorldData& world) {
-  world.bodyIds.forEach([&](uint32_t slot) { world.bodies[slot].force = world.bodies[slot].torque = {}; });
+  for (const uint32_t slot : world.sleep.awake) world.bodies[slot].force = world.bodies[slot].torque = {};
   clearJointForces(world);
 }
 
 void restore(WorldData& world, StepData& step) {
-  if (step.substep > 0) {
-    world.bodies = step.bodiesBefore;
-    world.joints = step.jointsBefore, world.d6 = step.d6Before, world.links = step.linksBefore;
-  }
+  restoreAwake(world, step);
   if (step.pairsKept)
     restorePairs(world, step);
   else
     forgetTouches(world, step);
+  restoreSleepers(world, step);
 }
 
 }  // namespace
@@ -71,10 +71,7 @@ void Stepper::step(WorldData& world, float dt) {
   step.jobs = jobs_.get();
   world.report.seconds = {};
   world.report.fastBodies = world.report.impacts = 0;
-  if (world.def.substeps > 1) {
-    step.bodiesBefore = world.bodies;
-    step.jointsBefore = world.joints, step.d6Before = world.d6, step.linksBefore = world.links;
-  }
+  rememberAwake(world, step);
   chooseSettings(world, step, dt / static_cast<float>(world.def.substeps));
   beginEvents(world, step);
   step.pairsKept = false;
@@ -87,6 +84,7 @@ void Stepper::step(WorldData& world, float dt) {
     }
   }
   forgetForces(world);
+  run(Stage::Sleep, settle, world, step);
   if (world.breakable > 0) breakJoints(world);
   world.time += dt;
   ++world.report.step;

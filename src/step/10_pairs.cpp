@@ -4,6 +4,7 @@
 #include "step/step_data.h"
 #include "world/limits.h"
 #include "world/pairs.h"
+#include "world/sleep.h"
 
 namespace avbd {
 
@@ -48,44 +49,62 @@ void refitMoved(WorldData& world, StepData& step) {
   for (const uint32_t slot : world.unpaired)
     if (slot < world.shapes.size() && world.shapes[slot].proxy >= 0) refit(world, step, slot, true);
   world.unpaired.clear();
-  world.bodyIds.forEach([&](uint32_t slot) {
-    const BodyData& body = world.bodies[slot];
-    if (body.type == BodyType::Static) return;
-    for (uint32_t s = body.firstShape; s != kNone; s = world.shapes[s].next) refit(world, step, s, false);
-  });
+  for (const uint32_t slot : world.sleep.awake)
+    for (uint32_t s = world.bodies[slot].firstShape; s != kNone; s = world.shapes[s].next) refit(world, step, s, false);
 }
 
-void findNewKeys(const WorldData& world, StepData& step) {
+/// Nothing happens between two that rest.
+bool anyAwake(const WorldData& world, uint32_t shapeA, uint32_t shapeB) {
+  return isAwake(world, world.shapes[shapeA].body) || isAwake(world, world.shapes[shapeB].body);
+}
+
+/// Keys that are not in the list.
+void findNewKeys(WorldData& world, StepData& step) {
   step.newKeys.clear();
   for (const uint32_t slot : step.moved) {
     world.tree.query(world.tree.box(world.shapes[slot].proxy), [&](uint32_t other) {
-      if (mayTouch(world, slot, other)) step.newKeys.push_back(pairKey(slot, other));
+      if (anyAwake(world, slot, other) && mayTouch(world, slot, other)) step.newKeys.push_back(pairKey(slot, other));
     });
   }
   std::sort(step.newKeys.begin(), step.newKeys.end());
   step.newKeys.erase(std::unique(step.newKeys.begin(), step.newKeys.end()), step.newKeys.end());
+  std::erase_if(step.newKeys, [&](uint64_t key) { return findPair(world, key) != nullptr; });
 }
 
-bool boundsOverlap(const WorldData& world, uint32_t a, uint32_t b) {
-  return overlaps(world.tree.box(world.shapes[a].proxy), world.tree.box(world.shapes[b].proxy));
-}
-
-/// Old pairs that still overlap and new ones, in order of their keys; a run stays together.
-void mergePairs(WorldData& world, StepData& step) {
-  std::vector<PairData>& merged = step.mergedPairs;
-  merged.clear();
-  size_t next = 0;
-  for (PairData& pair : world.pairs) {
-    for (; next < step.newKeys.size() && step.newKeys[next] < pair.key(); ++next)
-      merged.push_back(newPair(world, step.newKeys[next]));
-    if (next < step.newKeys.size() && step.newKeys[next] == pair.key()) ++next;
-    if (boundsOverlap(world, pair.shapeA, pair.shapeB))
-      merged.push_back(pair);
-    else
-      loseTouch(world, pair, step.substep > 0);
+/// Drops the pairs that do not overlap any more. Most steps lose none, so that nothing is copied.
+void dropParted(WorldData& world, StepData& step) {
+  step.isMoved.resize(world.shapes.size());
+  for (const uint32_t slot : step.moved) step.isMoved[slot] = 1;
+  const auto parted = [&](const PairData& pair) {
+    if (!step.isMoved[pair.shapeA] && !step.isMoved[pair.shapeB]) return false;
+    return !overlaps(world.tree.box(world.shapes[pair.shapeA].proxy), world.tree.box(world.shapes[pair.shapeB].proxy));
+  };
+  size_t size = 0;
+  for (size_t i = 0; i < world.pairs.size(); ++i) {
+    if (parted(world.pairs[i])) {
+      loseTouch(world, world.pairs[i], step.substep > 0);
+      continue;
+    }
+    if (size != i) world.pairs[size] = world.pairs[i];
+    ++size;
   }
-  for (; next < step.newKeys.size(); ++next) merged.push_back(newPair(world, step.newKeys[next]));
-  world.pairs.swap(merged);
+  world.pairs.resize(size);
+  for (const uint32_t slot : step.moved) step.isMoved[slot] = 0;
+}
+
+/// New pairs to their places, from the end, so that nothing is overwritten before it has moved; a run stays together.
+void addNew(WorldData& world, const StepData& step) {
+  std::vector<PairData>& pairs = world.pairs;
+  size_t from = pairs.size(), more = step.newKeys.size(), to = from + more;
+  pairs.resize(to);
+  while (more > 0) {
+    const bool takesOld = from > 0 && pairs[from - 1].key() > step.newKeys[more - 1];
+    --to;
+    if (takesOld)
+      pairs[to] = pairs[--from];
+    else
+      pairs[to] = newPair(world, step.newKeys[--more]);
+  }
 }
 
 }  // namespace
@@ -94,7 +113,8 @@ void findPairs(WorldData& world, StepData& step) {
   refitMoved(world, step);
   if (!step.moved.empty()) {
     findNewKeys(world, step);
-    mergePairs(world, step);
+    dropParted(world, step);
+    addNew(world, step);
   }
   world.report.pairs = static_cast<uint32_t>(world.pairs.size());
 }

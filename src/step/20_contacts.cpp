@@ -3,6 +3,7 @@
 
 #include "collide/collide.h"
 #include "step/contacts.h"
+#include "step/sleeping.h"
 
 namespace avbd {
 
@@ -75,6 +76,23 @@ void findManifolds(WorldData& world, StepData& step) {
   });
 }
 
+/// Of the pair whose run begins at i; returns its end. `isAlone`: no other has looked for its manifold in this substep.
+size_t findContactsOf(WorldData& world, StepData& step, size_t i, bool isAlone) {
+  PairData& pair = world.pairs[i];
+  size_t end = i + 1;
+  if (step.substep == 0) pair.touching = pair.touchBegins = false;
+  if (pair.isTrigger)
+    pair.touching = pair.touching || overlaps(world, step, pair);
+  else if (pair.hasSurface)
+    findPatches(world, step, i, end = endOfRun(world, i));
+  else if (step.substep > 0 || isAlone)
+    findManifold(world, step, pair);
+  if (pair.isTrigger ? pair.touching != pair.wasTouching : pair.wasTouching && !anyPoints(pair, end - i))
+    step.touchChanges.push_back(pair.key());
+  count(world.report, &pair, end - i);
+  return end;
+}
+
 }  // namespace
 
 void findContacts(WorldData& world, StepData& step) {
@@ -82,22 +100,15 @@ void findContacts(WorldData& world, StepData& step) {
   step.changes.clear();
   world.report.contacts = world.report.points = 0;
   findManifolds(world, step);
-  for (size_t i = 0, end; i < world.pairs.size(); i = end) {
-    PairData& pair = world.pairs[i];
-    end = i + 1;
-    if (step.substep == 0) pair.touching = pair.touchBegins = false;
-    if (pair.isTrigger)
-      pair.touching = pair.touching || overlaps(world, step, pair);
-    else if (pair.hasSurface)
-      findPatches(world, step, i, end = endOfRun(world, i));
-    else if (step.substep > 0)
-      findManifold(world, step, pair);
-    if (pair.isTrigger ? pair.touching != pair.wasTouching : pair.wasTouching && !anyPoints(pair, end - i))
-      step.touchChanges.push_back(pair.key());
-    count(world.report, &pair, end - i);
-  }
+  for (size_t i = 0; i < world.pairs.size();) i = findContactsOf(world, step, i, false);
   count(world.report, step.overflow.data(), step.overflow.size());
   if (!step.overflow.empty()) lengthenRuns(world, step);
+  if (wakeTouched(world, step)) {
+    step.overflow.clear();
+    for (const uint32_t pair : step.wokenPairs) findContactsOf(world, step, pair, true);
+    count(world.report, step.overflow.data(), step.overflow.size());
+    if (!step.overflow.empty()) lengthenRuns(world, step);
+  }
   if (world.contactHook) askHook(world, step);
 }
 

@@ -23,19 +23,19 @@ void join(std::vector<uint32_t>& parent, uint32_t a, uint32_t b) {
 
 void joinBodies(const WorldData& world, StepData& step) {
   step.parent.resize(world.bodies.size());
-  for (uint32_t i = 0; i < step.parent.size(); ++i) step.parent[i] = i;
+  for (const uint32_t slot : world.sleep.awake) step.parent[slot] = slot;
   for (const PairData& pair : world.pairs)
     if (pair.pointCount > 0 && isDynamic(world, pair.bodyA) && isDynamic(world, pair.bodyB))
       join(step.parent, pair.bodyA, pair.bodyB);
-  world.jointIds.forEach([&](uint32_t slot) {
-    if (!acts(world, slot)) return;
+  for (const uint32_t slot : world.sleep.joints) {
+    if (!acts(world, slot)) continue;
     uint32_t first = kNone;
     forEachBody(world, slot, [&](uint32_t body) {
       if (!isDynamic(world, body)) return;
       if (first != kNone) join(step.parent, first, body);
       first = body;
     });
-  });
+  }
 }
 
 /// Turns the islands' counts into the beginnings of consecutive ranges and clears them, to be counted again by who
@@ -52,12 +52,13 @@ uint32_t layOut(std::vector<Island>& islands, uint32_t Island::*begin, uint32_t 
 
 /// Numbers the islands and lists their bodies, both in ascending order.
 void listBodies(const WorldData& world, StepData& step) {
-  step.islandOf.assign(world.bodies.size(), kNone);
+  for (const uint32_t slot : step.order) step.islandOf[slot] = kNone;  // of the step before
+  step.islandOf.resize(std::max(step.islandOf.size(), world.bodies.size()), kNone);
   step.islands.clear();
   step.kinematic.clear();
-  world.bodyIds.forEach([&](uint32_t slot) {
+  for (const uint32_t slot : world.sleep.awake) {
     if (world.bodies[slot].type == BodyType::Kinematic) step.kinematic.push_back(slot);
-    if (!isDynamic(world, slot)) return;
+    if (!isDynamic(world, slot)) continue;
     const uint32_t root = find(step.parent, slot);
     if (root == slot) {
       step.islandOf[slot] = static_cast<uint32_t>(step.islands.size());
@@ -65,16 +66,16 @@ void listBodies(const WorldData& world, StepData& step) {
     }
     step.islandOf[slot] = step.islandOf[root];
     ++step.islands[step.islandOf[slot]].bodyCount;
-  });
+  }
   step.order.resize(layOut(step.islands, &Island::bodyBegin, &Island::bodyCount));
-  world.bodyIds.forEach([&](uint32_t slot) {
-    if (step.islandOf[slot] == kNone) return;
+  for (const uint32_t slot : world.sleep.awake) {
+    if (step.islandOf[slot] == kNone) continue;
     Island& island = step.islands[step.islandOf[slot]];
     step.order[island.bodyBegin + island.bodyCount++] = slot;
     island.mass += world.bodies[slot].mass;
     const int asked = world.bodies[slot].iterations;
     island.iterations = std::max(island.iterations, asked > 0 ? asked : world.def.iterations);
-  });
+  }
 }
 
 uint32_t islandOfJoint(const WorldData& world, const StepData& step, uint32_t slot) {
@@ -104,8 +105,8 @@ void listPairs(const WorldData& world, StepData& step) {
 }
 
 void listJoints(const WorldData& world, StepData& step) {
-  world.jointIds.forEach([&](uint32_t slot) {
-    if (!acts(world, slot)) return;
+  for (const uint32_t slot : world.sleep.joints) {
+    if (!acts(world, slot)) continue;
     Island& island = step.islands[islandOfJoint(world, step, slot)];
     ++island.jointCount;
     forEachBody(world, slot, [&](uint32_t body) {
@@ -114,13 +115,13 @@ void listJoints(const WorldData& world, StepData& step) {
     // Its wheels stand in the world; what a user's rows do to momentum only the user knows.
     const JointType type = world.joints[slot].type;
     if (type == JointType::Pulley || type == JointType::Custom) island.floating = false;
-  });
+  }
   step.islandJoints.resize(layOut(step.islands, &Island::jointBegin, &Island::jointCount));
-  world.jointIds.forEach([&](uint32_t slot) {
-    if (!acts(world, slot)) return;
+  for (const uint32_t slot : world.sleep.joints) {
+    if (!acts(world, slot)) continue;
     Island& island = step.islands[islandOfJoint(world, step, slot)];
     step.islandJoints[island.jointBegin + island.jointCount++] = slot;
-  });
+  }
 }
 
 }  // namespace

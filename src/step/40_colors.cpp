@@ -15,7 +15,7 @@ void link(const WorldData& world, Coloring& c, const uint32_t* body, int count) 
   const auto moves = [&](uint32_t slot) { return slot != kNone && world.bodies[slot].type == BodyType::Dynamic; };
   for (int i = 0; i < count; ++i)
     for (int j = i + 1; j < count; ++j)
-      if (moves(body[i]) && moves(body[j])) c.links.push_back({body[i], body[j]});
+      if (moves(body[i]) && moves(body[j])) c.links.push_back({c.at[body[i]], c.at[body[j]]});
 }
 
 void findLinks(const WorldData& world, const StepData& step, Coloring& c) {
@@ -35,8 +35,8 @@ void findLinks(const WorldData& world, const StepData& step, Coloring& c) {
   }
 }
 
-void listNeighbours(size_t slots, Coloring& c) {
-  c.first.assign(slots + 1, 0);
+void listNeighbours(size_t bodies, Coloring& c) {
+  c.first.assign(bodies + 1, 0);
   for (const auto& l : c.links) ++c.first[l[0]], ++c.first[l[1]];
   uint32_t end = 0;
   for (uint32_t& f : c.first) f = end += f;
@@ -51,19 +51,19 @@ void colorBlocks(WorldData& world, StepData& step) {
   c.colors = 0;
   world.report.colors = 0;
   if (world.def.primalSolver != PrimalSolver::BlockSweep) return;
+  c.at.resize(world.bodies.size());
+  for (uint32_t i = 0; i < step.order.size(); ++i) c.at[step.order[i]] = i;
   findLinks(world, step, c);
-  listNeighbours(world.bodies.size(), c);
-  c.ofSlot.assign(world.bodies.size(), kNone);
-  c.ofOrder.resize(step.order.size());
+  listNeighbours(step.order.size(), c);
+  c.ofOrder.assign(step.order.size(), kNone);
   c.takenBy.clear();
   for (uint32_t i = 0; i < step.order.size(); ++i) {
-    const uint32_t slot = step.order[i];
-    for (uint32_t n = c.first[slot]; n < c.first[slot + 1]; ++n)
-      if (c.ofSlot[c.neighbour[n]] != kNone) c.takenBy[c.ofSlot[c.neighbour[n]]] = i;
+    for (uint32_t n = c.first[i]; n < c.first[i + 1]; ++n)
+      if (c.ofOrder[c.neighbour[n]] != kNone) c.takenBy[c.ofOrder[c.neighbour[n]]] = i;
     const uint32_t color = static_cast<uint32_t>(
         std::find_if(c.takenBy.begin(), c.takenBy.end(), [i](uint32_t by) { return by != i; }) - c.takenBy.begin());
     if (color == c.takenBy.size()) c.takenBy.push_back(kNone);
-    c.ofSlot[slot] = c.ofOrder[i] = color;
+    c.ofOrder[i] = color;
   }
   c.colors = static_cast<uint32_t>(c.takenBy.size());
   world.report.colors = c.colors;

@@ -44,7 +44,7 @@ void endBody(const WorldData& world, StepData& step, uint32_t index, uint32_t ro
 void updateVelocities(WorldData& world, StepData& step) {
   step.end.resize(step.order.size());
   step.rowOfEnd.resize(step.order.size());
-  step.endOf.assign(world.bodies.size(), kNone);
+  step.endOf.resize(world.bodies.size());
   forUnits(step, [&](const WorkUnit& unit) {
     step.backend->endMotions(step.view(unit.batch), step.h, {unit.rows.begin, roundUp(unit.rows.end)});
     forBodies(step, unit, [&](uint32_t index, uint32_t row) { endBody(world, step, index, row); });

@@ -1,6 +1,7 @@
 // Continuous collision: bodies that moved far for their size stop at the first impact on their way (continuous.h).
 #include <algorithm>
 
+#include "step/begin_rows.h"
 #include "step/contacts.h"
 #include "step/step_data.h"
 #include "world/joints.h"
@@ -84,9 +85,7 @@ class Search {
     return false;
   }
 
-  uint32_t nextMeet(uint32_t m, uint32_t index) const {
-    return c_.meets[m].next[c_.meets[m].body[0] == index ? 0 : 1];
-  }
+  uint32_t nextMeet(uint32_t m, uint32_t index) const { return c_.meets[m].next[c_.meets[m].body[0] == index ? 0 : 1]; }
 
   bool isVisit(uint32_t a, uint32_t b) const { return world_.shapes[a].isTrigger || world_.shapes[b].isTrigger; }
 
@@ -136,7 +135,7 @@ class Search {
     return moved.state == State::Carried || (moved.isFast && !isDynamic(moved));
   }
   bool isStopped(const MovedBody& moved, const MovedBody& by) const {
-    return moved.state == State::Free && isDynamic(moved) && bodyOf(moved).continuous &&
+    return moved.state == State::Free && isDynamic(moved) && !bodyOf(moved).asleep && bodyOf(moved).continuous &&
            (moved.isFast || isUnstoppable(by));
   }
 
@@ -276,8 +275,8 @@ void endThere(const WorldData& world, StepData& step, const MovedBody& moved) {
   StepData::EndState& end = step.end[index];
   const Pose pose = at(moved.motion, 1);
   if ((body.locks >> 3) == 0) {
-    const Vec3 momentum = turnedProduct(body.inertia, end.rotation, end.angularVelocity);
-    end.angularVelocity = turnedProduct(body.invInertia, pose.rotation, momentum);
+    const Vec3 momentum = fromRow(turnedProduct(toRow(body.inertia), toRow(end.rotation), toRow(end.angularVelocity)));
+    end.angularVelocity = fromRow(turnedProduct(toRow(body.invInertia), toRow(pose.rotation), toRow(momentum)));
   }
   end.position = pose.position, end.rotation = pose.rotation;
   const Vec3 way = toFloat(end.position - body.position);

@@ -124,8 +124,9 @@ uint32_t rowInBatch(const WorldData& world, StepData& step, BatchRange& batch, u
 
 void layOutBatches(const WorldData& world, StepData& step) {
   clearLanes(step);
-  step.rowOf.assign(world.bodies.size(), kNone);
-  step.kinematicBatch.assign(world.bodies.size(), kNone);
+  step.rowOf.resize(world.bodies.size());
+  for (const StepData::KinematicRow& row : step.kinematicRows) step.kinematicBatch[row.body] = kNone;
+  step.kinematicBatch.resize(std::max(step.kinematicBatch.size(), world.bodies.size()), kNone);
   step.kinematicRows.clear();
   uint32_t rows = 0, island = 0;
   while (island < step.islands.size()) {

@@ -6,17 +6,17 @@
 namespace avbd {
 
 void breakJoints(WorldData& world) {
-  world.jointIds.forEach([&](uint32_t slot) {
+  for (const uint32_t slot : world.sleep.joints) {
     JointData& joint = world.joints[slot];
     const bool beyond = joint.enabled && (length(joint.reaction.force) > joint.breaks.force ||
                                           length(joint.reaction.torque) > joint.breaks.torque);
     if (beyond && joint.strained) {
       world.events.breaks.push_back({world.jointIds.id(slot), joint.reaction});
       setEnabled(world, slot, false);
-      return;
+      continue;
     }
     joint.strained = beyond;
-  });
+  }
 }
 
 }  // namespace avbd

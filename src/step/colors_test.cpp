@@ -35,9 +35,12 @@ struct Graph {
     std::copy(bodies.begin(), bodies.end(), world.joints.back().body);
   }
   bool moves(uint32_t body) const { return body != kNone && world.bodies[body].type == BodyType::Dynamic; }
-  const std::vector<uint32_t>& color() {
+  /// By body; kNone of those that are not dynamic.
+  std::vector<uint32_t> color() {
     colorBlocks(world, step);
-    return step.coloring.ofSlot;
+    std::vector<uint32_t> colors(world.bodies.size(), kNone);
+    for (size_t i = 0; i < step.order.size(); ++i) colors[step.order[i]] = step.coloring.ofOrder[i];
+    return colors;
   }
   /// Dynamic bodies that share a row with this one.
   std::vector<uint32_t> neighbours(uint32_t body) const {

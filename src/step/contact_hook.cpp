@@ -1,5 +1,5 @@
 // The user's contact hook: what it sees, what it may say, and what becomes of it.
-#include <numeric>
+#include <algorithm>
 
 #include "step/contacts.h"
 #include "world/check.h"
@@ -100,6 +100,7 @@ void askHook(WorldData& world, StepData& step) {
 
 void rememberPairs(const WorldData& world, StepData& step) {
   step.pairsBefore = world.pairs;
+  step.unpairedBefore = world.unpaired;
   step.pairsKept = true;
 }
 
@@ -108,8 +109,11 @@ void restorePairs(WorldData& world, StepData& step) {
   world.pairs.swap(step.pairsBefore);
   world.means.swap(step.meansBefore);
   world.lostTouches.resize(step.lostBefore);
-  world.unpaired.resize(world.shapes.size());
-  std::iota(world.unpaired.begin(), world.unpaired.end(), 0u);
+  world.unpaired = step.unpairedBefore;
+  for (const uint32_t slot : world.sleep.awake)
+    for (uint32_t s = world.bodies[slot].firstShape; s != kNone; s = world.shapes[s].next) world.unpaired.push_back(s);
+  std::sort(world.unpaired.begin(), world.unpaired.end());
+  world.unpaired.erase(std::unique(world.unpaired.begin(), world.unpaired.end()), world.unpaired.end());
 }
 
 }  // namespace avbd

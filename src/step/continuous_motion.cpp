@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "step/begin_rows.h"
+#include "step/free_motion.h"
 #include "step/step_data.h"
 #include "world/joints.h"
 
@@ -18,7 +19,8 @@ Vec3 heldPoint(const WorldData& world, uint32_t body) {
     const JointData& joint = world.joints[j];
     const int side = sideOf(joint, body);
     next = joint.next[side];
-    const bool holds = joint.type == JointType::Ball || joint.type == JointType::Fixed || joint.type == JointType::Hinge;
+    const bool holds =
+        joint.type == JointType::Ball || joint.type == JointType::Fixed || joint.type == JointType::Hinge;
     if (holds && joint.enabled && !isDynamic(world, joint.body[1 - side])) return joint.anchor[side];
   }
   return {};
@@ -38,7 +40,7 @@ BodyMotion motionOf(const WorldData& world, const StepData& step, uint32_t slot)
   BodyMotion motion = resting({body.position, body.rotation});
   if (body.type == BodyType::Kinematic) {
     motion.shift = body.linearVelocity * step.h, motion.turn = body.angularVelocity * step.h;
-  } else if (body.type == BodyType::Dynamic) {
+  } else if (body.type == BodyType::Dynamic && !body.asleep) {
     const uint32_t index = step.endOf[slot];
     const float* d = step.d.data() + size_t(8) * step.rowOfEnd[index];
     motion.turn = {d[4], d[5], d[6]};

@@ -189,12 +189,12 @@ void sortBy(std::vector<Event>& events, Ids ids) {
 }
 
 void publishMoves(WorldData& world, const StepData& step) {
-  world.bodyIds.forEach([&](uint32_t slot) {
+  for (const uint32_t slot : world.sleep.awake) {
     const BodyData& body = world.bodies[slot];
     const PoseBefore& before = step.posesBefore[slot];
-    if (body.position == before.position && body.rotation == before.rotation) return;
+    if (body.position == before.position && body.rotation == before.rotation) continue;
     world.events.moves.push_back({world.bodyIds.id(slot), bodyPose(body), body.userData});
-  });
+  }
 }
 
 }  // namespace
@@ -210,8 +210,8 @@ void beginEvents(WorldData& world, StepData& step) {
   step.touchChanges.reserve(2 * world.pairs.size());
   if (!world.def.moveEvents) return;
   step.posesBefore.resize(world.bodies.size());
-  for (size_t i = 0; i < world.bodies.size(); ++i)
-    step.posesBefore[i] = {world.bodies[i].position, world.bodies[i].rotation};
+  for (const uint32_t slot : world.sleep.awake)
+    step.posesBefore[slot] = {world.bodies[slot].position, world.bodies[slot].rotation};
 }
 
 void noteContact(WorldData& world, StepData& step, uint32_t index, const PointForces& forces) {

@@ -127,9 +127,9 @@ struct ForestScratch {
 struct Coloring {
   uint32_t colors = 0;
   std::vector<uint32_t> ofOrder;               ///< colour, by StepData::order
-  std::vector<uint32_t> ofSlot;                ///< the same by body slot
-  std::vector<std::array<uint32_t, 2>> links;  ///< body slots that share a row
-  std::vector<uint32_t> first, neighbour;      ///< by body slot: its neighbours start at neighbour[first[slot]]
+  std::vector<uint32_t> at;                    ///< place in the order, by body slot
+  std::vector<std::array<uint32_t, 2>> links;  ///< places of bodies that share a row
+  std::vector<uint32_t> first, neighbour;      ///< by place: its neighbours start at neighbour[first[place]]
   std::vector<uint32_t> takenBy;               ///< by colour: the last body that found it at a neighbour
 };
 
@@ -173,6 +173,24 @@ struct PoseBefore {
   Quat rotation;
 };
 
+/// Copies by slot, whose memory is used again.
+template <class T>
+struct Saved {
+  struct Entry {
+    uint32_t slot;
+    T data;
+  };
+  std::vector<Entry> list;
+  size_t count = 0;  ///< in use
+  void save(uint32_t slot, const T& data) {
+    if (count == list.size()) list.emplace_back();
+    list[count].slot = slot, list[count++].data = data;
+  }
+  void restore(std::vector<T>& to) const {
+    for (size_t i = 0; i < count; ++i) to[list[i].slot] = list[i].data;
+  }
+};
+
 struct StepData {
   float h = 0;          ///< [s] of a substep
   float alpha = 0;      ///< share of a violation at the start of the step that a row keeps
@@ -183,19 +201,20 @@ struct StepData {
   Jobs* jobs = nullptr;
   int substep = 0;  ///< that runs
 
-  std::vector<BodyData> bodiesBefore;   ///< the whole step, where substeps may fail
-  std::vector<JointData> jointsBefore;  ///< likewise
-  std::vector<D6Data> d6Before;
-  std::vector<LinkData> linksBefore;
+  Saved<BodyData> bodiesBefore;   ///< what is awake, where substeps may fail; and what a step woke
+  Saved<JointData> jointsBefore;  ///< likewise
+  Saved<D6Data> d6Before;
+  Saved<LinkData> linksBefore;
+  std::vector<uint32_t> unpairedBefore;
   std::vector<PairData> pairsBefore;    ///< the same, where the contact hook may fail: if pairsKept
   size_t lostBefore = 0;                ///< how many lostTouches there were when the step began
   std::vector<PointMeans> meansBefore;  ///< of the step before
   bool pairsKept = false;
 
   // 10_pairs
-  std::vector<uint32_t> moved;  ///< shapes that left their fat bounds
+  std::vector<uint32_t> moved;   ///< shapes that left their fat bounds
+  std::vector<uint8_t> isMoved;  ///< by shape slot
   std::vector<uint64_t> newKeys;
-  std::vector<PairData> mergedPairs;
 
   // 20_contacts
   std::vector<SurfacePatch> patches;   ///< of one pair with a surface; by patch:
@@ -208,6 +227,9 @@ struct StepData {
   std::vector<uint8_t> oldTaken;       ///< some new point continues it
   std::vector<PairData> overflow;      ///< entries for which runs are too short, by key
   std::vector<ContactChange> changes;  ///< by pair
+
+  std::vector<uint32_t> wokenIslands;  ///< in SleepData::islands: what a contact woke in this step
+  std::vector<uint32_t> wokenPairs;    ///< indices of the first entries of their pairs
 
   // 30_islands
   std::vector<uint32_t> parent;    ///< union-find, by body slot
@@ -278,6 +300,9 @@ struct StepData {
   std::vector<uint32_t> endOf;     ///< index in end, by body slot
 
   ContinuousData continuous;  // 75_continuous
+  // 80_sleep
+  std::vector<float> stillTime;   ///< [s] by StepData::order
+  std::vector<uint32_t> falling;  ///< islands that fall asleep
 
   // 90_publish
   std::vector<uint64_t> touchChanges;   ///< keys of pairs that may have begun or ended to touch
@@ -312,6 +337,7 @@ void solveBlocks(WorldData& world, StepData& step);
 void updateRows(WorldData& world, StepData& step);
 void updateVelocities(WorldData& world, StepData& step);
 void stopAtImpacts(WorldData& world, StepData& step);
+void chooseSleepers(WorldData& world, StepData& step);
 void publish(WorldData& world, StepData& step);
 
 }  // namespace avbd

@@ -5,6 +5,7 @@
 #include "world/mass.h"
 #include "world/pairs.h"
 #include "world/rotation.h"
+#include "world/sleep.h"
 
 namespace avbd {
 namespace {
@@ -67,6 +68,7 @@ uint32_t addBody(WorldData& data, const BodyDef& def, const BodyPlan& plan) {
   setVelocityOf(body, {def.linearVelocity, def.angularVelocity});
   body.massScale = def.mass;
   body.massGiven = def.massProperties.has_value();
+  body.canSleep = def.canSleep;
   body.userData = def.userData;
   if (body.type == BodyType::Dynamic) {
     storeMass(body, plan.mass);
@@ -74,19 +76,31 @@ uint32_t addBody(WorldData& data, const BodyDef& def, const BodyPlan& plan) {
   }
   body.position = plan.pose.position + rotate(body.rotation, toDouble(body.center));
   for (const ShapeDef& shape : plan.shapes) addShape(data, slot, shape);
+  enlist(data, slot);
   return slot;
 }
 
+void changeVelocity(WorldData& data, uint32_t slot, const Velocity& velocity) {
+  BodyData& body = data.bodies[slot];
+  if (body.asleep && velocity == Velocity{}) return;
+  if (body.type == BodyType::Dynamic) wakeBody(data, slot);
+  setVelocityOf(body, velocity);
+  if (body.type == BodyType::Kinematic) wakeKinematic(data, slot);
+}
+
 void removeBody(WorldData& data, uint32_t slot) {
+  wakeBody(data, slot);
   removeJointsOf(data, slot);
   endExclusionsOf(data, slot);
   forgetPairsOfBody(data, slot);
   while (data.bodies[slot].firstShape != kNone) removeShape(data, data.bodies[slot].firstShape);
   data.bodies[slot] = {};
+  data.sleep.stale = true;
   data.bodyIds.destroy(data.bodyIds.id(slot));
 }
 
 void setMass(WorldData& data, uint32_t slot, const MassProperties& properties) {
+  wakeBody(data, slot);
   BodyData& body = data.bodies[slot];
   storeMass(body, properties);
   const Vec3 shift = properties.center - body.center;
@@ -96,12 +110,14 @@ void setMass(WorldData& data, uint32_t slot, const MassProperties& properties) {
   body.position = body.position + rotate(body.rotation, toDouble(properties.center) - toDouble(body.center));
   body.center = properties.center;
   stopLockedAxes(body);
+  returnWoken(data, false);
   shiftMemories(data, slot, shift);
   updateAnchorsOf(data, slot);
   placeShapes(data, slot);
 }
 
 void moveBody(WorldData& data, uint32_t slot, const Pose& pose) {
+  wakeBody(data, slot);
   BodyData& body = data.bodies[slot];
   body.rotation = pose.rotation;
   body.position = pose.position + rotate(pose.rotation, toDouble(body.center));
@@ -110,6 +126,7 @@ void moveBody(WorldData& data, uint32_t slot, const Pose& pose) {
     data.tree.move(data.shapes[s].proxy, fatBounds(data, data.shapes[s]));
     markUnpaired(data, s);
   }
+  if (!isDynamic(data, slot)) wakeAround(data, slot);
 }
 
 Vec3 spinFromImpulse(const BodyData& body, Vec3 impulse) {

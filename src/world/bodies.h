@@ -16,6 +16,8 @@ void moveBody(WorldData& data, uint32_t slot, const Pose& pose);
 Pose bodyPose(const BodyData& body);  ///< of the body's frame
 /// Sets both velocities, zero along locked axes.
 void setVelocityOf(BodyData& body, const Velocity& velocity);
+/// The same of a body that may sleep: it wakes, unless it shall go on resting.
+void changeVelocity(WorldData& data, uint32_t slot, const Velocity& velocity);
 /// Velocity along locked axes becomes zero.
 void stopLockedAxes(BodyData& body);
 /// Change of the angular velocity by an angular impulse [N m s], locked axes kept.

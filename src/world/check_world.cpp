@@ -18,6 +18,8 @@ void checkWorld(const WorldDef& def) {
   check(path / "restitutionThreshold", def.restitutionThreshold, notNegative(kMaxSpeed * unit));
   check(path / "maxDepenetrationSpeed", def.maxDepenetrationSpeed, notNegative(kMaxSpeed * unit));
   check(path / "hitSpeed", def.hitSpeed, positive(kMaxSpeed * unit));
+  check(path / "sleepTime", def.sleepTime, notNegative(kMaxSleepTime));
+  check(path / "sleepSpeed", def.sleepSpeed, notNegative(kMaxSpeed));
   check(path / "krylovIterations", def.krylovIterations, Range{0, 1000});
   if (!(def.jointArmBlend == -1 || (def.jointArmBlend >= 0 && def.jointArmBlend <= 1))) {
     (path / "jointArmBlend").refuse(toText(def.jointArmBlend), "must be -1 or within 0 .. 1");

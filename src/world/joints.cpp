@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "world/pairs.h"
+#include "world/sleep.h"
 
 namespace avbd {
 namespace {
@@ -64,6 +65,8 @@ uint32_t link(WorldData& data, uint32_t slot, const JointData& checked) {
     updateAnchor(data, slot, joint, 0);
     updateAnchor(data, slot, joint, 1);
   }
+  data.sleep.newJoints.push_back(slot);
+  wakeJoint(data, slot);
   if (excludes(joint)) exclude(data, joint.body[0], joint.body[1]);
   return slot;
 }
@@ -98,8 +101,10 @@ uint32_t addJoint(WorldData& data, const JointData& checked, const LinkData& wit
 
 void clearJointForces(WorldData& data) {
   if (!data.jointForces) return;
-  for (D6Data& d6 : data.d6) std::fill(std::begin(d6.force), std::end(d6.force), 0.0f);
-  for (LinkData& link : data.links) link.force = 0;
+  for (const uint32_t slot : data.sleep.joints) {
+    if (slot < data.d6.size()) std::fill(std::begin(data.d6[slot].force), std::end(data.d6[slot].force), 0.0f);
+    if (slot < data.links.size()) data.links[slot].force = 0;
+  }
   data.jointForces = false;
 }
 
@@ -113,6 +118,7 @@ bool acts(const WorldData& data, uint32_t slot) {
 void setEnabled(WorldData& data, uint32_t slot, bool enabled) {
   JointData& joint = data.joints[slot];
   if (joint.enabled == enabled) return;
+  wakeJoint(data, slot);
   if (excludes(joint)) endExclusion(data, joint.body[0], joint.body[1]);
   joint.enabled = enabled, joint.strained = false;
   if (excludes(joint)) exclude(data, joint.body[0], joint.body[1]);
@@ -136,6 +142,7 @@ void setBreaks(WorldData& data, uint32_t slot, const JointBreak& limits) {
 
 void setFrames(WorldData& data, uint32_t slot, const Pose& frameA, const Pose& frameB) {
   JointData& joint = data.joints[slot];
+  wakeJoint(data, slot);
   joint.frame[0] = frameA, joint.frame[1] = frameB;
   updateAnchor(data, slot, joint, 0);
   updateAnchor(data, slot, joint, 1);
@@ -146,6 +153,8 @@ void removeJoint(WorldData& data, uint32_t slot) {
     std::erase(data.couplings, slot);
     removeCouplingsOf(data, slot);
   }
+  wakeJoint(data, slot);
+  data.sleep.stale = true;
   data.breakable -= isBreakable(data.joints[slot].breaks);
   if (isLink(data.joints[slot].type)) data.links[slot] = {};
   const JointData joint = data.joints[slot];

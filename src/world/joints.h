@@ -37,7 +37,7 @@ void forEachBody(const WorldData& data, uint32_t slot, F&& f) {
   }
   for (int i = 0; i < bodyCount(data, slot); ++i) f(joint.body[i]);
 }
-/// Forgets the forces that were given along coordinates.
+/// Forgets the forces that were given along coordinates; the lists of what is awake must be up to date.
 void clearJointForces(WorldData& data);
 /// Enabled, and of a coupling all its joints too.
 bool acts(const WorldData& data, uint32_t slot);

@@ -12,6 +12,8 @@ inline constexpr double kMaxSpin = 1e6;                     ///< [rad/s]
 inline constexpr double kMaxAcceleration = 1e6;             ///< [1/s^2]
 inline constexpr double kMinUnit = 1e-6, kMaxUnit = 1e6;    ///< of lengthUnit itself
 
+inline constexpr double kMaxSleepTime = 1e6;  ///< [s]
+
 /// [s] Shorter steps would square to nothing in float.
 inline constexpr float kMinSubstep = 1e-7f;
 

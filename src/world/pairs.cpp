@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "world/sleep.h"
+
 namespace avbd {
 namespace {
 
@@ -139,11 +141,21 @@ void eraseSlot(std::vector<uint32_t>& slots, uint32_t slot) {
 }  // namespace
 
 void forgetPairsOfShape(WorldData& data, uint32_t shape) {
-  if (!data.pairs.empty()) insertSlot(data.forgotten, shape);
+  if (!data.pairs.empty() || !data.sleep.woken.empty()) insertSlot(data.forgotten, shape);
 }
 
 void forgetPairsOfBody(WorldData& data, uint32_t body) {
   for (uint32_t s = data.bodies[body].firstShape; s != kNone; s = data.shapes[s].next) forgetPairsOfShape(data, s);
+}
+
+std::vector<const PairData*> sleepingPairs(const WorldData& data) {
+  std::vector<const PairData*> pairs;
+  for (const SleepingIsland& island : data.sleep.islands)
+    for (const PairData& pair : island.pairs) pairs.push_back(&pair);
+  std::sort(pairs.begin(), pairs.end(), [](const PairData* x, const PairData* y) {
+    return x->key() != y->key() ? x->key() < y->key() : x->patch < y->patch;
+  });
+  return pairs;
 }
 
 bool isForgotten(const WorldData& data, uint32_t shape) {
@@ -162,6 +174,7 @@ void dropForgottenPairs(WorldData& data) {
 }
 
 void erasePairsBetween(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
+  returnWoken(data, false);
   if (data.pairs.empty()) return;
   for (uint32_t a = data.bodies[bodyA].firstShape; a != kNone; a = data.shapes[a].next) {
     for (uint32_t b = data.bodies[bodyB].firstShape; b != kNone; b = data.shapes[b].next) {
@@ -181,7 +194,17 @@ void markBodyUnpaired(WorldData& data, uint32_t body) {
 
 void unmarkUnpaired(WorldData& data, uint32_t shape) { eraseSlot(data.unpaired, shape); }
 
+namespace {
+
+void wakeDynamic(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
+  for (const uint32_t body : {bodyA, bodyB})
+    if (isDynamic(data, body)) wakeBody(data, body);
+}
+
+}  // namespace
+
 void exclude(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
+  wakeDynamic(data, bodyA, bodyB);
   const uint64_t pair = slotPair(bodyA, bodyB);
   data.excludedPairs.insert(std::upper_bound(data.excludedPairs.begin(), data.excludedPairs.end(), pair), pair);
   erasePairsBetween(data, bodyA, bodyB);
@@ -193,6 +216,7 @@ void endExclusion(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
   AVBD_ASSERT(at != data.excludedPairs.end() && *at == pair);
   data.excludedPairs.erase(at);
   if (isExcluded(data, bodyA, bodyB)) return;
+  wakeDynamic(data, bodyA, bodyB);
   markBodyUnpaired(data, bodyA);
   markBodyUnpaired(data, bodyB);
 }

@@ -31,7 +31,7 @@ PairData* findPair(WorldData& data, uint64_t key);
 void forgetPairsOfShape(WorldData& data, uint32_t shape);
 void forgetPairsOfBody(WorldData& data, uint32_t body);
 void dropForgottenPairs(WorldData& data);
-/// Calls f(pair) for all pairs that are not void, in order.
+/// Calls f(pair) for all pairs that are not void, in order; also those of sleepers.
 template <class F>
 void forEachPair(const WorldData& data, F&& f);
 void erasePairsBetween(WorldData& data, uint32_t bodyA, uint32_t bodyB);
@@ -48,15 +48,24 @@ void endExclusionsOf(WorldData& data, uint32_t body);
 bool isExcluded(const WorldData& data, uint32_t bodyA, uint32_t bodyB);
 size_t exclusionsOf(const WorldData& data, uint32_t bodyA, uint32_t bodyB);  ///< how often the pair is excluded
 
+/// Pairs of sleeping islands, in order.
+std::vector<const PairData*> sleepingPairs(const WorldData& data);
 /// Whether its pairs are void.
 bool isForgotten(const WorldData& data, uint32_t shape);
 
 template <class F>
 void forEachPair(const WorldData& data, F&& f) {
   const bool all = data.forgotten.empty();
-  for (const PairData& pair : data.pairs) {
+  const auto visit = [&](const PairData& pair) {
     if (all || (!isForgotten(data, pair.shapeA) && !isForgotten(data, pair.shapeB))) f(pair);
+  };
+  const std::vector<const PairData*> sleeping = sleepingPairs(data);
+  auto next = sleeping.begin();
+  for (const PairData& pair : data.pairs) {
+    for (; next != sleeping.end() && (*next)->key() < pair.key(); ++next) visit(**next);
+    visit(pair);
   }
+  for (; next != sleeping.end(); ++next) visit(**next);
 }
 
 }  // namespace avbd

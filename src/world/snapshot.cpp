@@ -2,7 +2,7 @@
 //
 // Head, 40 bytes: "AVBDSNAP", version (u32), 0 (u32), size of the whole (u64), fingerprint of the world (u64), hash of
 // all that and of what follows (u64). Then: things that are shared, settings, ids, bodies, shapes and tree, joints,
-// lists, pairs, what was lost, events.
+// lists, pairs, what sleeps, what was lost, events.
 #include "world/snapshot.h"
 
 #include <avbd/error.h>
@@ -34,7 +34,8 @@ constexpr size_t kHead = 40, kHashAt = 32;
 /// Of what a world was made with and cannot change. What changes no bit of a result is left out.
 uint64_t fingerprint(const WorldDef& def) {
   auto& [gravity, workers, iterations, substeps, lengthUnit, restitutionThreshold, maxDepenetrationSpeed, hitSpeed,
-         moveEvents, primalSolver, krylovIterations, jointArmBlend, simdWidth] = def;
+         moveEvents, continuous, primalSolver, krylovIterations, jointArmBlend, sleep, sleepTime, sleepSpeed, simdWidth,
+         tasks] = def;
   Hash64 hash;
   hash.value(lengthUnit);
   hash.value(restitutionThreshold);
@@ -44,6 +45,10 @@ uint64_t fingerprint(const WorldDef& def) {
   hash.value(static_cast<uint8_t>(primalSolver));
   hash.value(static_cast<int32_t>(krylovIterations));
   hash.value(jointArmBlend);
+  hash.value(static_cast<uint8_t>(continuous));
+  hash.value(static_cast<uint8_t>(sleep));
+  hash.value(sleepTime);
+  hash.value(sleepSpeed);
   return hash.digest();
 }
 
@@ -90,10 +95,11 @@ void codeLists(Codec& codec, World& data) {
 template <class Codec, class World>
 void codeEvents(Codec& codec, World& data) {
   recordList(codec, data.lostTouches);
-  auto& [begins, ends, enters, leaves, hits, breaks, moves] = data.events;
+  auto& [begins, ends, enters, leaves, hits, breaks, moves, sleeps, wakes] = data.events;
   recordList(codec, begins), recordList(codec, ends);
   recordList(codec, enters), recordList(codec, leaves);
   recordList(codec, hits), recordList(codec, breaks), recordList(codec, moves);
+  list(codec, sleeps), list(codec, wakes);
 }
 
 template <class Tag>
@@ -131,7 +137,7 @@ void checkHook(bool asked, const WorldData& restored, const WorldData& world) {
 void allMembers(WorldData& data) {
   [[maybe_unused]] auto& [def, bodyIds, shapeIds, jointIds, bodies, shapes, joints, d6, links, couplings, jointForces,
                           breakable, pairs, excludedPairs, tree, unpaired, forgotten, treeBehind, time, report, means,
-                          events, lostTouches, contactHook, hookedShapes, wishesChanged] = data;
+                          events, lostTouches, contactHook, hookedShapes, sleep, wishesChanged] = data;
 }
 
 void read(Reader& in, const WorldData& world, SharedTable& table, WorldData& out) {
@@ -153,6 +159,8 @@ void read(Reader& in, const WorldData& world, SharedTable& table, WorldData& out
   codeLists(in, out);
   checkLinks(out);
   codePairs(in, out);
+  codeSleep(in, out);
+  checkSleep(out);
   codeEvents(in, out);
   checkPairs(out);
   require(in.left() == 0, "more than it says");
@@ -197,6 +205,7 @@ void saveSnapshot(const WorldData& data, SharedTable& table, snapshot::Writer& o
   codeJoints(out, data, table);
   codeLists(out, data);
   codePairs(out, data);
+  codeSleep(out, data);
   codeEvents(out, data);
 }
 

@@ -160,9 +160,9 @@ void checkLinks(const WorldData& data) {
   checkSlots(data.forgotten, data.shapes.size());
 }
 
-void checkPairs(const WorldData& data) {
+void checkPairList(const WorldData& data, const std::vector<PairData>& pairs) {
   const PairData* before = nullptr;
-  for (const PairData& pair : data.pairs) {
+  for (const PairData& pair : pairs) {
     const bool goesOn = before && before->key() == pair.key();
     require(pair.shapeA < pair.shapeB && (!before || before->key() <= pair.key()), "the order of pairs");
     require(pair.patch == (goesOn ? before->patch + 1 : 0) && (!goesOn || pair.hasSurface), "a pair's run");
@@ -173,6 +173,10 @@ void checkPairs(const WorldData& data) {
       require(isForgotten(data, pair.shapeA) || isForgotten(data, pair.shapeB), "a pair of shapes that are gone");
     before = &pair;
   }
+}
+
+void checkPairs(const WorldData& data) {
+  checkPairList(data, data.pairs);
   for (const LostTouch& lost : data.lostTouches) require(lost.wasTouching, "a touch that never was");
 }
 

@@ -33,11 +33,12 @@ template <MaybeConst<BodyData> T>
 auto snapshotParts(T& x) {
   auto& [position, rotation, linearVelocity, angularVelocity, acceleration, force, torque, center, mass, inertia,
          invInertia, linearDamping, angularDamping, gravityScale, iterations, maxLinearSpeed, maxAngularSpeed, radius,
-         minExtent, massScale, firstShape, firstJoint, type, locks, massGiven, userData] = x;
+         minExtent, massScale, firstShape, firstJoint, type, locks, massGiven, continuous, canSleep, asleep, toldAsleep,
+         stillTime, sleepIsland, userData] = x;
   return std::tie(position, rotation, linearVelocity, angularVelocity, acceleration, force, torque, center, mass,
                   inertia, invInertia, linearDamping, angularDamping, gravityScale, iterations, maxLinearSpeed,
                   maxAngularSpeed, radius, minExtent, massScale, firstShape, firstJoint, type, locks, massGiven,
-                  userData);
+                  continuous, canSleep, asleep, toldAsleep, stillTime, sleepIsland, userData);
 }
 
 /// By hand (snapshot_shapes.cpp): geometry, and what follows from it; materials.
@@ -176,8 +177,9 @@ auto snapshotParts(T& x) {
 /// No state: the times of the stages, and the width, which is the processor's.
 template <MaybeConst<StepReport> T>
 auto snapshotParts(T& x) {
-  auto& [step, bodies, pairs, contacts, points, joints, islands, colors, simdWidth, seconds] = x;
-  return std::tie(step, bodies, pairs, contacts, points, joints, islands, colors);
+  auto& [step, bodies, asleep, pairs, contacts, points, joints, islands, colors, fastBodies, impacts, simdWidth,
+         seconds] = x;
+  return std::tie(step, bodies, asleep, pairs, contacts, points, joints, islands, colors, fastBodies, impacts);
 }
 
 }  // namespace avbd

@@ -333,26 +333,34 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
 
 }  // namespace
 
-void codePairs(Writer& out, const WorldData& data) {
-  out.number(data.pairs.size());
+void codePairList(Writer& out, const WorldData& data, const std::vector<PairData>& pairs) {
+  out.number(pairs.size());
   Expected expected;
-  for (const PairData& pair : data.pairs) {
+  for (const PairData& pair : pairs) {
     std::byte* to = out.room(kPairBytes);
     writePair(to, data, pair, expected);
     out.advance(to);
   }
-  list(out, data.means);
 }
 
-void codePairs(Reader& in, WorldData& data) {
-  data.pairs.resize(in.count(2 * sizeof(uint32_t)));
+void codePairList(Reader& in, const WorldData& data, std::vector<PairData>& pairs) {
+  pairs.resize(in.count(2 * sizeof(uint32_t)));
   Expected expected;
-  for (PairData& pair : data.pairs) {
+  for (PairData& pair : pairs) {
     const std::byte* const begin = in.piece(kPairBytes);
     const std::byte* from = begin;
     readPair(from, data, pair, expected);
     in.advance(static_cast<size_t>(from - begin));
   }
+}
+
+void codePairs(Writer& out, const WorldData& data) {
+  codePairList(out, data, data.pairs);
+  list(out, data.means);
+}
+
+void codePairs(Reader& in, WorldData& data) {
+  codePairList(in, data, data.pairs);
   list(in, data.means);
 }
 

@@ -17,6 +17,13 @@ void add(Hash64& hash, const BodyData& body) {
   hash.value(body.torque);
 }
 
+/// Which bodies sleep together, by the lowest of them, and how long the others have rested. Nothing where none sleeps.
+void addSleep(Hash64& hash, const WorldData& data, const BodyData& body) {
+  if (body.type != BodyType::Dynamic || (!data.def.sleep && !body.asleep)) return;
+  hash.value(body.asleep ? data.sleep.islands[body.sleepIsland].bodies[0] + 1 : 0u);
+  hash.value(body.stillTime);
+}
+
 void add(Hash64& hash, const JointMultipliers& l) {
   const float all[] = {l.lock, l.lower, l.upper, l.drive, l.friction, l.passive};
   hash.value(all);
@@ -85,6 +92,7 @@ uint64_t stateHash(const WorldData& data) {
   data.bodyIds.forEach([&](uint32_t slot) {
     hash.value(slot);
     add(hash, data.bodies[slot]);
+    addSleep(hash, data, data.bodies[slot]);
   });
   data.jointIds.forEach([&](uint32_t slot) {
     hash.value(slot);

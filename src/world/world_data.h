@@ -37,6 +37,12 @@ struct BodyData {
   uint8_t locks = 0;
   bool massGiven = false;  ///< massProperties came from the user
   bool continuous = true;  ///< as BodyDef::continuous
+  bool canSleep = true;
+  /// Not in SleepData::awake: a dynamic body that sleeps, a kinematic one that does not move, a static one.
+  bool asleep = false;
+  bool toldAsleep = false;       ///< as the events say
+  float stillTime = 0;           ///< [s] for which it has been slow, up to WorldDef::sleepTime
+  uint32_t sleepIsland = kNone;  ///< of a dynamic body that sleeps: in SleepData::islands
   uint64_t userData = 0;
 };
 
@@ -182,6 +188,28 @@ struct LostTouch {
   Vec3 normal;
 };
 
+/// Bodies that fell asleep together. What belongs to them is not in the lists that a step walks.
+struct SleepingIsland {
+  std::vector<uint32_t> bodies;    ///< slots, ascending; none: not in use
+  std::vector<uint32_t> joints;    ///< slots, ascending
+  std::vector<uint32_t> supports;  ///< static and kinematic bodies that they touch or are jointed to; slots, ascending
+  std::vector<PairData> pairs;     ///< those that have points or touch, ordered by key
+};
+
+/// What is awake and what sleeps. A pair or joint is awake if one of its bodies is.
+struct SleepData {
+  /// Slots, ascending. Those of what has been destroyed or put to sleep stay until the next step: `stale`.
+  std::vector<uint32_t> awake;                ///< dynamic bodies that are awake, kinematic ones that move
+  std::vector<uint32_t> joints;               ///< joints that are awake
+  std::vector<uint32_t> newAwake, newJoints;  ///< to be added to them, in no order
+  bool stale = false;
+  std::vector<SleepingIsland> islands;  ///< by BodyData::sleepIsland
+  std::vector<uint32_t> free;           ///< of the islands: not in use
+  std::vector<uint32_t> woken;          ///< of the islands: their bodies are awake, the rest is still here
+  std::vector<uint32_t> changed;        ///< slots of bodies whose events are to be found out, in no order
+  uint32_t asleep = 0;                  ///< how many dynamic bodies sleep
+};
+
 struct WorldData {
   WorldDef def;
   HandlePool<BodyTag> bodyIds;
@@ -195,7 +223,7 @@ struct WorldData {
   std::vector<uint32_t> couplings;      ///< joint slots, ascending
   bool jointForces = false;             ///< some joint was given a force for the next step
   uint32_t breakable = 0;               ///< how many joints have a bound in `breaks`
-  std::vector<PairData> pairs;          ///< ordered by key
+  std::vector<PairData> pairs;          ///< that are awake, ordered by key
   std::vector<uint64_t> excludedPairs;  ///< body slots, low << 32 | high, sorted, each as often as it was excluded
   DynamicTree tree;                     ///< fat bounds of all shapes; user data is the shape's slot
   /// Shapes whose pairs have to be found anew (made, moved by the user, refiltered): slots, ascending, each once.
@@ -209,7 +237,8 @@ struct WorldData {
   Events events;                       ///< of the last step
   std::vector<LostTouch> lostTouches;  ///< since the last step
   std::function<bool(ContactPlan&)> contactHook;
-  uint32_t hookedShapes = 0;   ///< how many shapes have contactHook
+  uint32_t hookedShapes = 0;  ///< how many shapes have contactHook
+  SleepData sleep;
   bool wishesChanged = false;  ///< some shape's contactEvents, hitEvents or contactHook: pairs do not know it yet
 };
 
