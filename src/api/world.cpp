@@ -41,7 +41,7 @@ std::array<uint64_t, kStageCount> World::stageHashes() const { return avbd::stag
 
 void World::setGravity(Vec3 gravity) {
   check(Path("World::setGravity") / "gravity", gravity, symmetric(kMaxAcceleration * impl_->data.def.lengthUnit));
-  wakeAll(impl_->data);
+  avbd::wakeAll(impl_->data);
   impl_->data.def.gravity = gravity;
 }
 

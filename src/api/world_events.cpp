@@ -7,7 +7,7 @@ namespace avbd {
 
 const Events& World::events() const { return impl_->data.events; }
 void World::setContactHook(std::function<bool(ContactPlan&)> hook) {
-  wakeAll(impl_->data);
+  avbd::wakeAll(impl_->data);
   impl_->data.contactHook = std::move(hook);
 }
 
