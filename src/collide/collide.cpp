@@ -45,6 +45,11 @@ PairFunction pairFunction(ShapeType first, ShapeType second) {
   return collideConvex;
 }
 
+/// Flat faces and corners: what touches one face rests on the same points while it hardly moves. Round ones roll on.
+bool isAngular(const ShapeGeom& g) {
+  return ((g.type == ShapeType::Box || g.type == ShapeType::Hull) && g.radius == 0) || g.type == ShapeType::HalfSpace;
+}
+
 /// -1, 0 or 1 as the data that a shape points to comes before, with or after another's: by content, not by address.
 int compareData(const ShapeGeom& a, const ShapeGeom& b) {
   if (a.type == ShapeType::Hull) {
@@ -87,12 +92,17 @@ bool changePlaces(const ShapeGeom& a, const NearPose& poseA, const ShapeGeom& b,
 void collide(const ShapeGeom& a, const NearPose& poseA, const ShapeGeom& b, const NearPose& poseB, float margin,
              Manifold& out) {
   out.count = 0;
+  out.clear = 0;
+  out.carrier = Carrier::None;
   const bool swapped = changePlaces(a, poseA, b, poseB);
   const ShapeGeom &first = swapped ? b : a, &second = swapped ? a : b;
   const PairFunction function = pairFunction(first.type, second.type);
   if (!function) return;
   function({first, swapped ? poseB : poseA, second, swapped ? poseA : poseB, margin, swapped}, out);
   if (swapped) out.normal = -out.normal;
+  if (out.count > 0) out.clear = margin;
+  if (!isAngular(first) || !isAngular(second)) out.carrier = Carrier::None;
+  if (swapped && out.carrier != Carrier::None) out.carrier = out.carrier == Carrier::A ? Carrier::B : Carrier::A;
 }
 
 }  // namespace avbd

@@ -47,19 +47,21 @@ BoxPair makePair(const ShapePair& s, const Mat3& a) {
   return p;
 }
 
-/// Best face of each box; false if one of them separates by more than the margin.
-bool faceAxes(const BoxPair& p, FaceAxis& a, FaceAxis& b) {
+/// Best face of each box; false if one of them separates by more than the margin: by `clear`.
+bool faceAxes(const BoxPair& p, FaceAxis& a, FaceAxis& b, float& clear) {
   float sa[3], sb[3];
   for (int i = 0; i < 3; ++i) {
     const float reach = p.absR[i][0] * p.hb[0] + p.absR[i][1] * p.hb[1] + p.absR[i][2] * p.hb[2];
     sa[i] = magnitude(p.da[i]) - (p.ha[i] + reach);
   }
-  if (sa[0] > p.margin || sa[1] > p.margin || sa[2] > p.margin) return false;
+  clear = larger(larger(sa[0], sa[1]), sa[2]);
+  if (clear > p.margin) return false;
   for (int j = 0; j < 3; ++j) {
     const float reach = p.absR[0][j] * p.ha[0] + p.absR[1][j] * p.ha[1] + p.absR[2][j] * p.ha[2];
     sb[j] = magnitude(p.db[j]) - (p.hb[j] + reach);
   }
-  if (sb[0] > p.margin || sb[1] > p.margin || sb[2] > p.margin) return false;
+  clear = larger(larger(sb[0], sb[1]), sb[2]);
+  if (clear > p.margin) return false;
   a = {0, sa[0]};
   b = {0, sb[0], true};
   for (int i = 1; i < 3; ++i) {
@@ -82,7 +84,10 @@ inline bool edgeAxis(const BoxPair& p, float& floor, EdgeAxis& best) {
   const float l2 = p.r[i1][J] * p.r[i1][J] + p.r[i2][J] * p.r[i2][J];
   if (l2 < kShortAxis) return true;
   const float scale = 1 / std::sqrt(l2), separation = gap * scale;
-  if (separation > p.margin) return false;
+  if (separation > p.margin) {
+    floor = separation;
+    return false;
+  }
   if (!(separation > floor)) return true;
   floor = separation;
   const float k = along < 0 ? -scale : scale;
@@ -93,8 +98,8 @@ inline bool edgeAxis(const BoxPair& p, float& floor, EdgeAxis& best) {
   return true;
 }
 
-/// False if an edge axis separates by more than the margin.
-bool edgeAxes(const BoxPair& p, float floor, EdgeAxis& best) {
+/// False if an edge axis separates by more than the margin: by `floor`.
+bool edgeAxes(const BoxPair& p, float& floor, EdgeAxis& best) {
   return edgeAxis<0, 0>(p, floor, best) && edgeAxis<0, 1>(p, floor, best) && edgeAxis<0, 2>(p, floor, best) &&
          edgeAxis<1, 0>(p, floor, best) && edgeAxis<1, 1>(p, floor, best) && edgeAxis<1, 2>(p, floor, best) &&
          edgeAxis<2, 0>(p, floor, best) && edgeAxis<2, 1>(p, floor, best) && edgeAxis<2, 2>(p, floor, best);
@@ -132,6 +137,7 @@ bool touchEdges(const BoxPair& p, const EdgeAxis& axis, bool swapped, Manifold& 
   const uint32_t a = edgeName(i, pa), b = edgeName(j, localB);
   out.normal = normal;
   out.count = 0;
+  out.carrier = Carrier::None;
   if (separation > p.margin) return within;
   addPoint(out, vec(pa) + vec(gap) * 0.5f, separation, swapped ? 0x10000u | b << 4 | a : 0x10000u | a << 4 | b);
   return within;
@@ -183,6 +189,7 @@ float touchFace(const ShapePair& s, const Mat3& a, const BoxPair& p, const FaceA
     out.points[k].feature |= name;
   }
   place(face.ofB ? matrix(s.poseB.q) : a, face.ofB ? s.poseB.p : s.poseA.p, out);
+  out.carrier = face.ofB ? Carrier::B : Carrier::A;
   return found.count > 0 ? found.lowest : std::numeric_limits<float>::infinity();
 }
 
@@ -235,10 +242,12 @@ void collideBoxBox(const ShapePair& s, Manifold& out) {
   const Mat3 a = matrix(s.poseA.q);
   const BoxPair p = makePair(s, a);
   FaceAxis faceA, faceB;
-  if (!faceAxes(p, faceA, faceB)) return;
+  if (!faceAxes(p, faceA, faceB, out.clear)) return;
   const FaceAxis& face = faceB.separation > faceA.separation + p.tolerance ? faceB : faceA;
   EdgeAxis edge;
-  if (!edgeAxes(p, face.separation + p.tolerance + kRelative * magnitude(face.separation), edge)) return;
+  out.clear = face.separation + p.tolerance + kRelative * magnitude(face.separation);
+  if (!edgeAxes(p, out.clear, edge)) return;
+  out.clear = 0;
   const bool isFace = edge.i < 0;
   const float best = isFace ? face.separation : edge.separation;
   const bool exact = isFace ? touchFace(s, a, p, face, out) <= larger(best, 0) + p.tolerance

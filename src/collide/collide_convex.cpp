@@ -76,13 +76,22 @@ bool touchFace(const CoreContact& c, bool ofB, const CarrierFace& reference, Man
   cutBy(c, ofB, reference, found);
   if (found.count == 0 || found.lowest > reference.separation + slackOf(c, reference.separation)) return false;
   place(c, ofB, reference.face.normal, found, out);
+  out.carrier = ofB ? Carrier::B : Carrier::A;
   return true;
+}
+
+/// The cores are apart: a lower bound of their distance.
+void setClear(const CoreContact& c, double distance, Manifold& out) {
+  out.clear = static_cast<float>(distance) - (c.shapes.a.radius + c.shapes.b.radius);
 }
 
 /// The manifold from the faces that separate most, if that is shown to be right; also if there is none.
 bool touchBestFaces(const CoreContact& c, Manifold& out) {
   CarrierFace a, b;
-  if (!bestFaces(c, a, b)) return true;
+  if (!bestFaces(c, a, b)) {
+    setClear(c, a.separation > b.separation ? a.separation : b.separation, out);
+    return true;
+  }
   if (!a.isFace && !b.isFace) return false;
   const bool ofB = b.separation > a.separation + c.tolerance;
   CarrierFace& best = ofB ? b : a;
@@ -91,6 +100,7 @@ bool touchBestFaces(const CoreContact& c, Manifold& out) {
   cutBy(c, ofB, best, found);
   if (found.count == 0 || !isProven(c, best, found)) return false;
   place(c, ofB, best.face.normal, found, out);
+  out.carrier = ofB ? Carrier::B : Carrier::A;
   return true;
 }
 
@@ -159,7 +169,7 @@ void collideConvex(const ShapePair& s, Manifold& out) {
   const CoreContact c{s, pair, kTolerance * thinnest(s.a, s.b), beyond};
   if (touchBestFaces(c, out)) return;
   CoreNearest near = coreNearest(pair, beyond);
-  if (near.apart || near.distance > beyond) return;
+  if (near.apart || near.distance > beyond) return setClear(c, near.distance, out);
   if (touchFaces(c, near, out)) return;
   if (!near.sharp) {
     // Without its noise a normal may be a face's after all.
@@ -187,6 +197,7 @@ void collideConvexHalfSpace(const ShapePair& s, Manifold& out) {
   ClipResult found;
   clipFaces({ground, face, ground.normal, 0, s.margin + s.a.radius, s.swapped}, found);
   out.normal = toFloat(mul(frame, up) * -1.0);
+  out.carrier = Carrier::B;
   for (int i = 0; i < found.count; ++i) {
     const float separation = found.point[i].height - s.a.radius;
     const Vec3 p = found.point[i].onReference + ground.normal * (0.5f * separation);

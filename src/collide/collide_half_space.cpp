@@ -34,7 +34,9 @@ void collideBoxHalfSpace(const ShapePair& pair, Manifold& out) {
   Axes lift;
   for (int i = 0; i < 3; ++i) lift[i] = magnitude(n[i]) * h[i];
   const float lowest = dot(up, pair.poseA.p - pair.poseB.p) - (lift[0] + lift[1] + lift[2]);
+  out.clear = lowest;
   if (lowest > pair.margin) return;
+  out.carrier = Carrier::B;
   int across = lift[1] > lift[0] ? 1 : 0;
   if (lift[2] > lift[across]) across = 2;
   const int u = kNext[across], v = kLast[across];

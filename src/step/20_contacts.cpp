@@ -27,12 +27,15 @@ namespace {
 void findManifold(WorldData& world, const StepData& step, PairData& pair) {
   const ShapeData &shapeA = world.shapes[pair.shapeA], &shapeB = world.shapes[pair.shapeB];
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
+  const float margin = speculativeMargin(world, a, b, step.h);
+  if (pair.kept.what != KeptManifold::What::Nothing && carryContact(world, step, pair, margin)) return;
   // Where nothing is found the last manifold's place has to stay: between substeps all of it, as it may have pushed.
   const Vec3 lastNormal = pair.manifold.normal, lastPoint = pair.manifold.points[0].position;
   Manifold last;
   if (step.substep > 0) last = pair.manifold;
-  collide(shapeA.geom, nearPose(a, shapeA, a.position), shapeB.geom, nearPose(b, shapeB, a.position),
-          speculativeMargin(world, a, b, step.h), pair.manifold);
+  collide(shapeA.geom, nearPose(a, shapeA, a.position), shapeB.geom, nearPose(b, shapeB, a.position), margin,
+          pair.manifold);
+  keepContact(world, pair, margin, pair.manifold);
   if (pair.manifold.count == 0) {
     if (step.substep > 0) pair.manifold = last;
     pair.manifold.normal = lastNormal, pair.manifold.points[0].position = lastPoint;

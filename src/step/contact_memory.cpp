@@ -8,8 +8,6 @@ namespace avbd {
 
 namespace {
 
-constexpr float kAnchorDrift = 0.01f;  ///< of the smaller half thickness: farther from its anchor a point has rolled on
-
 /// For each new point the index of the old point that it continues, or -1.
 void matchPoints(const PairData& pair, const BodyData& a, float nearby, int (&match)[kMaxManifoldPoints]) {
   bool taken[kMaxManifoldPoints] = {};
@@ -36,15 +34,6 @@ Vec3 toBasis(const PairData& pair, const ContactBasis& old, Vec3 v) {
   return {v.x, dot(tangential, pair.t1), dot(tangential, pair.t2)};
 }
 
-void turnBasis(PairData& pair) {
-  const rows::V3<float> n{pair.manifold.normal.x, pair.manifold.normal.y, pair.manifold.normal.z};
-  rows::V3<float> t1, t2;
-  rows::orthonormalBasis(n, t1, t2);
-  pair.normal = pair.manifold.normal;
-  pair.t1 = {t1.x, t1.y, t1.z};
-  pair.t2 = {t2.x, t2.y, t2.z};
-}
-
 /// The same of the pair's turning. `known`: that of any of its old points, or null.
 void rememberTurning(PairData& pair, const ContactBasis* known) {
   if (pair.turn == Vec3{} && pair.torque == Vec3{}) return;
@@ -54,6 +43,15 @@ void rememberTurning(PairData& pair, const ContactBasis* known) {
 }
 
 }  // namespace
+
+void turnBasis(PairData& pair) {
+  const rows::V3<float> n{pair.manifold.normal.x, pair.manifold.normal.y, pair.manifold.normal.z};
+  rows::V3<float> t1, t2;
+  rows::orthonormalBasis(n, t1, t2);
+  pair.normal = pair.manifold.normal;
+  pair.t1 = {t1.x, t1.y, t1.z};
+  pair.t2 = {t2.x, t2.y, t2.z};
+}
 
 PointMeans& meansOf(WorldData& world, PairData& pair) {
   if (pair.mean == kNone) {
@@ -158,6 +156,7 @@ void forgetContact(const WorldData& world, const StepData& step, PairData& pair)
     if (world.means[pair.mean][static_cast<size_t>(i)] != Vec3{})
       pair.gonePoints = static_cast<uint8_t>(pair.pointCount);
   pair.manifold.count = 0;
+  if (pair.kept.what != KeptManifold::What::Apart) pair.kept.what = KeptManifold::What::Nothing;
   pair.pointCount = 0;
   pair.slides = 0;
   pair.landedSliding = false;

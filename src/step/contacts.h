@@ -16,9 +16,14 @@ float speculativeMargin(const WorldData& world, const BodyData& a, const BodyDat
 inline constexpr float kSameNormal = 0.9f;  ///< cosine: a normal that turned farther keeps no multipliers
 /// Of the smaller half thickness: the nearest old point still counts as this one.
 inline constexpr float kNearPoint = 0.1f;
+/// Of the smaller half thickness: farther from its anchor a point has rolled on.
+inline constexpr float kAnchorDrift = 0.01f;
 
 /// A point in the body's axes, relative to its centre of mass.
 inline Vec3 toBody(const BodyData& body, Vec3 fromCenter) { return rotate(conjugate(body.rotation), fromCenter); }
+
+/// The pair's basis becomes that of its manifold's normal.
+void turnBasis(PairData& pair);
 
 /// What a new point continues; null: nothing.
 struct KnownPoint {
@@ -39,6 +44,12 @@ PointMeans& meansOf(WorldData& world, PairData& pair);
 void beginSlide(const WorldData& world, const StepData& step, PairData& pair, Vec3 belt);
 /// What has pushed in this step stays to be shown.
 void forgetContact(const WorldData& world, const StepData& step, PairData& pair);
+
+// Pairs of convex shapes that hardly move against each other (contact_carry.cpp).
+/// Manifold and memory from what was kept; false if it has to be found anew.
+bool carryContact(WorldData& world, const StepData& step, PairData& pair, float margin);
+/// Keeps what was found within the margin, if the next step may use it.
+void keepContact(const WorldData& world, PairData& pair, float margin, const Manifold& found);
 
 /// Friction, restitution ... of a pair from the materials of its shapes (contact_materials.cpp).
 void combineMaterials(PairData& pair, const Material& a, const Material& b);

@@ -21,6 +21,7 @@ void storeMass(BodyData& body, const MassProperties& properties) {
 void shiftMemories(WorldData& data, uint32_t slot, Vec3 shift) {
   for (PairData& pair : data.pairs) {
     if (pair.bodyA != slot && pair.bodyB != slot) continue;
+    pair.kept.what = KeptManifold::What::Nothing;
     for (PointMemory& point : pair.points) {
       Vec3& anchor = pair.bodyA == slot ? point.anchorA : point.anchorB;
       anchor = anchor - shift;

@@ -53,6 +53,22 @@ void add(Hash64& hash, const PointMemory& point) {
   hash.value(point.sticks);
 }
 
+void add(Hash64& hash, const KeptManifold& kept) {
+  hash.value(kept.what);
+  if (kept.what == KeptManifold::What::Nothing) return;
+  hash.value(static_cast<uint8_t>(kept.aroundBase));
+  hash.value(kept.offset);
+  hash.value(kept.turn);
+  hash.value(kept.clear);
+  hash.value(kept.reach);
+  if (kept.what == KeptManifold::What::Apart) return;
+  hash.value(kept.normal);
+  hash.value(kept.x);
+  hash.value(kept.y);
+  hash.value(kept.z);
+  hash.value(kept.height);
+}
+
 void add(Hash64& hash, const PairData& pair) {
   hash.value(pair.key());
   // What most pairs do not have.
@@ -73,6 +89,7 @@ void add(Hash64& hash, const PairData& pair) {
   hash.value(pair.slides);
   hash.value(static_cast<uint8_t>(pair.landedSliding));
   for (int i = 0; i < pair.pointCount; ++i) add(hash, pair.points[i]);
+  add(hash, pair.kept);
 }
 
 template <class Tag>

@@ -8,6 +8,7 @@
 
 #include "base/coupling_curve.h"
 #include "base/handle_pool.h"
+#include "collide/kept_manifold.h"
 #include "geom/manifold.h"
 #include "geom/shape.h"
 #include "geom/tree.h"
@@ -158,6 +159,7 @@ struct PairData {
   /// Positions relative to origin. With no points it keeps the normal and the first point of its last ones, until they
   /// are no longer the run's latest: then the normal is zero.
   Manifold manifold;
+  KeptManifold kept;    ///< of two convex shapes: the manifold as long as they hardly move
   Vec3 normal, t1, t2;  ///< basis that the memories are given in
   PointMemory points[kMaxManifoldPoints];
   int32_t pointCount = 0;                                   ///< of `points`: those of the last step
