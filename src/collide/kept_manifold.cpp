@@ -30,16 +30,8 @@ Mat3 turnLess(Quat q) {
   return {{{-(yy + zz), xy - wz, xz + wy}, {xy + wz, -(xx + zz), yz - wx}, {xz - wy, yz + wx, -(xx + yy)}}};
 }
 
-/// The other body as the base sees it.
-struct Relative {
-  Vec3 offset;
-  Quat turn;
-};
-
-Relative relative(const NearPose& base, const NearPose& other) {
-  const Quat back = conjugate(base.q);
-  return {rotate(back, other.p - base.p), back * other.q};
-}
+/// Where the other body's centre is, as the base sees it.
+Vec3 offsetIn(const Mat3& frame, const NearPose& base, const NearPose& other) { return mulT(frame, other.p - base.p); }
 
 }  // namespace
 
@@ -48,16 +40,15 @@ void keep(const Manifold& found, const NearBody& a, const NearBody& b, KeptManif
   if (!(found.clear > 0) || (found.count > 0 && found.carrier == Carrier::None)) return;
   const bool ofB = found.count > 0 && found.carrier == Carrier::B;
   const NearBody &base = ofB ? b : a, &other = ofB ? a : b;
-  const Relative now = relative(base.pose, other.pose);
-  kept.offset = now.offset;
-  kept.turn = now.turn;
+  const Mat3 frame = matrix(base.pose.q);
+  kept.offset = offsetIn(frame, base.pose, other.pose);
+  kept.turn = conjugate(base.pose.q) * other.pose.q;
   kept.clear = found.clear;
   kept.aroundBase = other.radius > base.radius + found.clear;
   kept.reach = kept.aroundBase ? base.radius + found.clear : other.radius;
   kept.what = found.count == 0 ? What::Apart : (ofB ? What::PointsOnB : What::PointsOnA);
   if (found.count == 0) return;
   const Vec3 normal = ofB ? -found.normal : found.normal;
-  const Mat3 frame = matrix(base.pose.q);
   kept.normal = mulT(frame, normal);
   for (int k = 0; k < kMaxManifoldPoints; ++k) {
     const bool isPoint = k < found.count;
@@ -72,10 +63,13 @@ Carry carry(const KeptManifold& kept, const NearPose& a, const NearPose& b, cons
             CarriedPoints& out) {
   const bool ofB = kept.what == What::PointsOnB;
   const NearPose &base = ofB ? b : a, &other = ofB ? a : b;
-  const Relative now = relative(base, other);
-  const Quat turned = now.turn * conjugate(kept.turn);
+  const Mat3 frame = matrix(base.q);
+  out.offset = offsetIn(frame, base, other);
+  out.turn = conjugate(base.q) * other.q;
+  out.ofB = ofB;
+  const Quat turned = out.turn * conjugate(kept.turn);
   const Mat3 turn = turnLess(turned);
-  const Vec3 shift = now.offset - kept.offset;
+  const Vec3 shift = out.offset - kept.offset;
   const Vec3 way = kept.aroundBase ? shift - mul(turn, kept.offset) : shift;
   const float moved = length(way) + 2 * length(Vec3{turned.x, turned.y, turned.z}) * kept.reach;
   const float clear = kept.clear - moved;
@@ -85,15 +79,17 @@ Carry carry(const KeptManifold& kept, const NearPose& a, const NearPose& b, cons
                  lane::loadUnaligned<Lanes>(kept.z)};
   const Points n = lanes(kept.normal), motion = times(turn, p - lanes(kept.offset)) + lanes(shift);
   out.separation = lane::loadUnaligned<Lanes>(kept.height) + dot(n, motion);
-  const Points onBase = p + motion - n * (out.separation * 0.5f);
-  const Points onOther = timesT(matrix(now.turn), onBase - lanes(now.offset));
-  const Mat3 frame = matrix(base.q);
-  out.position = times(frame, onBase) + lanes(base.p);
-  out.onA = ofB ? onOther : onBase;
-  out.onB = ofB ? onBase : onOther;
+  out.onBase = p + motion - n * (out.separation * 0.5f);
+  out.position = times(frame, out.onBase) + lanes(base.p);
   const Vec3 normal = mul(frame, kept.normal);
   out.normal = ofB ? -normal : normal;
   return Carry::Points;
+}
+
+PlacesOnBodies placesOnBodies(const CarriedPoints& points) {
+  const Points onOther = timesT(matrix(points.turn), points.onBase - lanes(points.offset));
+  if (points.ofB) return {onOther, points.onBase};
+  return {points.onBase, onOther};
 }
 
 }  // namespace avbd

@@ -42,8 +42,17 @@ struct CarriedPoints {
   Vec3 normal;  ///< from A to B
   Lanes separation;
   rows::V3<Lanes> position;  ///< halfway between the surfaces, relative to the pair's origin
-  rows::V3<Lanes> onA, onB;  ///< the same in each body's frame
+  rows::V3<Lanes> onBase;    ///< the same in the base's frame
+  Vec3 offset;               ///< the other body as the base sees it
+  Quat turn;
+  bool ofB = false;  ///< the base is B
 };
+
+/// The positions in each body's frame, relative to its centre.
+struct PlacesOnBodies {
+  rows::V3<CarriedPoints::Lanes> a, b;
+};
+PlacesOnBodies placesOnBodies(const CarriedPoints& points);
 
 /// How far the two may have moved against each other.
 struct KeepLimits {

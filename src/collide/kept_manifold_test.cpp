@@ -107,10 +107,11 @@ TEST(KeptManifold, placesInBothBodiesAreThePosition) {
   const Two later = upper.moved({2e-4f, 1e-4f, 0}, turned(3e-4f, {1, 0, 2}), turned(1, {1, 1, 0}));
   CarriedPoints now;
   ASSERT_EQ(later.carryTo(kept, now), Carry::Points);
+  const auto [onA, onB] = placesOnBodies(now);
   for (int k = 0; k < 4; ++k) {
     const Vec3 p{now.position.x[k], now.position.y[k], now.position.z[k]};
-    EXPECT_NEAR(length(rotate(later.turnA, Vec3{now.onA.x[k], now.onA.y[k], now.onA.z[k]}) - p), 0, 1e-6f);
-    EXPECT_NEAR(length(later.poseB * Vec3{now.onB.x[k], now.onB.y[k], now.onB.z[k]} - p), 0, 1e-6f);
+    EXPECT_NEAR(length(rotate(later.turnA, Vec3{onA.x[k], onA.y[k], onA.z[k]}) - p), 0, 1e-6f);
+    EXPECT_NEAR(length(later.poseB * Vec3{onB.x[k], onB.y[k], onB.z[k]} - p), 0, 1e-6f);
   }
 }
 

@@ -18,25 +18,32 @@ KeepLimits limitsOf(const WorldData& world, const PairData& pair, float margin) 
   return {margin, kMissed * least, std::min(kStill * smallerSize(a, b), kStillOfMargin * least)};
 }
 
-/// Multipliers and places of sticking, as rememberPoints() would carry them over from the same points.
-void carryMemory(PairData& pair, const CarriedPoints& now, float drift) {
-  const ContactBasis old{pair.normal, pair.t1, pair.t2};
-  if (pair.normal != pair.manifold.normal) {
-    turnBasis(pair);
-    const float t11 = dot(old.t1, pair.t1), t12 = dot(old.t2, pair.t1);
-    const float t21 = dot(old.t1, pair.t2), t22 = dot(old.t2, pair.t2);
-    for (int i = 0; i < pair.pointCount; ++i) {
-      Vec3& l = pair.points[i].lambda;
-      l = {l.x, t11 * l.y + t12 * l.z, t21 * l.y + t22 * l.z};
-    }
-  }
+/// What slips sticks from here on. What sticks has moved less than the limits since the manifold was found: that it
+/// rolls on shows when it is found anew.
+void anchorSlipping(PairData& pair, const CarriedPoints& now) {
+  const auto [onA, onB] = placesOnBodies(now);
   for (int i = 0; i < pair.pointCount; ++i) {
     PointMemory& point = pair.points[i];
-    const Vec3 onA{now.onA.x[i], now.onA.y[i], now.onA.z[i]}, onB{now.onB.x[i], now.onB.y[i], now.onB.z[i]};
-    const Vec3 driftA = onA - point.anchorA, driftB = onB - point.anchorB;
-    const bool rolled = std::max(dot(driftA, driftA), dot(driftB, driftB)) > drift * drift;
-    if (!point.sticks || rolled) point.anchorA = onA, point.anchorB = onB;
+    if (point.sticks) continue;
+    point.anchorA = {onA.x[i], onA.y[i], onA.z[i]};
+    point.anchorB = {onB.x[i], onB.y[i], onB.z[i]};
   }
+}
+
+/// Multipliers and places of sticking, as rememberPoints() would carry them over from the same points.
+void carryMemory(PairData& pair, const CarriedPoints& now) {
+  const ContactBasis old{pair.normal, pair.t1, pair.t2};
+  turnBasis(pair);
+  const float t11 = dot(old.t1, pair.t1), t12 = dot(old.t2, pair.t1);
+  const float t21 = dot(old.t1, pair.t2), t22 = dot(old.t2, pair.t2);
+  bool allStick = true;
+  for (int i = 0; i < pair.pointCount; ++i) {
+    PointMemory& point = pair.points[i];
+    point.lambda = {point.lambda.x, t11 * point.lambda.y + t12 * point.lambda.z,
+                    t21 * point.lambda.y + t22 * point.lambda.z};
+    allStick = allStick && point.sticks;
+  }
+  if (!allStick) anchorSlipping(pair, now);
   pair.mean = kNone;
   pair.gonePoints = 0;
 }
@@ -66,7 +73,7 @@ bool carryContact(WorldData& world, const StepData& step, PairData& pair, float 
   combineMaterials(pair, world.shapes[pair.shapeA].material, world.shapes[pair.shapeB].material);
   const bool simple = step.substep == 0 && pair.turn == Vec3{} && pair.torque == Vec3{};
   if (simple && dot(pair.normal, now.normal) > kSameNormal)
-    carryMemory(pair, now, kAnchorDrift * smallerSize(a, b));
+    carryMemory(pair, now);
   else
     rememberPoints(world, step, pair);
   return true;

@@ -8,6 +8,8 @@ namespace avbd {
 
 namespace {
 
+constexpr float kAnchorDrift = 0.01f;  ///< of the smaller half thickness: farther from its anchor a point has rolled on
+
 /// For each new point the index of the old point that it continues, or -1.
 void matchPoints(const PairData& pair, const BodyData& a, float nearby, int (&match)[kMaxManifoldPoints]) {
   bool taken[kMaxManifoldPoints] = {};

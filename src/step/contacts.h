@@ -16,8 +16,6 @@ float speculativeMargin(const WorldData& world, const BodyData& a, const BodyDat
 inline constexpr float kSameNormal = 0.9f;  ///< cosine: a normal that turned farther keeps no multipliers
 /// Of the smaller half thickness: the nearest old point still counts as this one.
 inline constexpr float kNearPoint = 0.1f;
-/// Of the smaller half thickness: farther from its anchor a point has rolled on.
-inline constexpr float kAnchorDrift = 0.01f;
 
 /// A point in the body's axes, relative to its centre of mass.
 inline Vec3 toBody(const BodyData& body, Vec3 fromCenter) { return rotate(conjugate(body.rotation), fromCenter); }
