@@ -59,7 +59,8 @@ double reachAcross(const ShapeGeom& geom, const NearPose& pose, Vec3d center, Ve
 /// One of the two as it moves, and what bounds its turning.
 class MovingSide {
  public:
-  MovingSide(const ShapeGeom& geom, const ShapeMotion& motion) : geom_(geom), motion_(motion), rate_(length(toDouble(motion.turn))) {
+  MovingSide(const ShapeGeom& geom, const ShapeMotion& motion)
+      : geom_(geom), motion_(motion), rate_(length(toDouble(motion.turn))) {
     if (!(rate_ > 0) || geom.type == ShapeType::HalfSpace) return;
     axis_ = toDouble(motion.turn) * (1 / rate_);
     const Vec3d center = toDouble(motion.center);

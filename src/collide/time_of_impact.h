@@ -1,9 +1,9 @@
 // When two moving shapes meet: conservative advancement over translation and rotation.
 //
-// The signed distance of two convex shapes is the largest of their separations along a direction, overlapping or not. So
-// the separation along the direction n of now bounds it from below for ever: how fast that shrinks is known, as each
-// shape goes straight and turns about a fixed axis. Both are moved on until this bound is used up, then looked at again.
-// No time is left out, so nothing is passed, and the answer is never late.
+// The signed distance of two convex shapes is the largest of their separations along a direction, overlapping or not.
+// So the separation along the direction n of now bounds it from below for ever: how fast that shrinks is known, as each
+// shape goes straight and turns about a fixed axis. Both are moved on until this bound is used up, then looked at
+// again. No time is left out, so nothing is passed, and the answer is never late.
 #pragma once
 
 #include "base/function_ref.h"
@@ -22,8 +22,8 @@ struct ShapeMotion {
 NearPose at(const ShapeMotion& motion, float time);
 
 struct ImpactQuery {
-  float distance = 0;    ///< [m] signed, that is looked for: negative for a depth
-  float tolerance = 0;   ///< [m] > 0: how much farther apart they may still be
+  float distance = 0;   ///< [m] signed, that is looked for: negative for a depth
+  float tolerance = 0;  ///< [m] > 0: how much farther apart they may still be
   float from = 0, to = 1;
 };
 

@@ -13,11 +13,11 @@ namespace {
 /// The convex shape in the frame that the surface has at time 0.
 struct OnSurface {
   NearPose pose;
-  Vec3 shift;          ///< against the surface, which stands still or turns
-  Vec3 inner;          ///< a point well inside
-  Aabb box;            ///< at `from`
-  float wander;        ///< how far turning may take a point
-  bool isStraight;     ///< the surface does not turn
+  Vec3 shift;       ///< against the surface, which stands still or turns
+  Vec3 inner;       ///< a point well inside
+  Aabb box;         ///< at `from`
+  float wander;     ///< how far turning may take a point
+  bool isStraight;  ///< the surface does not turn
 };
 
 float turning(const ShapeMotion& motion, Vec3 point) {

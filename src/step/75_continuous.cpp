@@ -1,8 +1,10 @@
 // Continuous collision: bodies that moved far for their size stop at the first impact on their way (continuous.h).
 #include <algorithm>
 
+#include "base/jobs.h"
 #include "step/begin_rows.h"
 #include "step/contacts.h"
+#include "step/free_motion.h"
 #include "step/step_data.h"
 #include "world/joints.h"
 #include "world/pairs.h"
@@ -29,7 +31,7 @@ class Search {
     for (uint32_t i = 0; i < fast; ++i) c_.bodies[i].box = boxOf(i);
     meetEachOther(fast);
     for (uint32_t i = 0; i < fast; ++i) meetOthers(i, true);
-    for (uint32_t m = 0; m < c_.meets.size(); ++m) ask(m, 0);
+    askAll();
     while (!c_.queue.empty()) {
       std::pop_heap(c_.queue.begin(), c_.queue.end(), isAfter);
       const PlannedImpact impact = c_.queue.back();
@@ -139,16 +141,31 @@ class Search {
            (moved.isFast || isUnstoppable(by));
   }
 
-  void ask(uint32_t m, float from) {
+  /// Whether one of the two would stop.
+  bool isOpen(uint32_t m) const {
+    const MovedBody &a = c_.bodies[c_.meets[m].body[0]], &b = c_.bodies[c_.meets[m].body[1]];
+    return isStopped(a, b) || isStopped(b, a);
+  }
+
+  void plan(uint32_t m, const Impact& impact) {
     ShapesMeet& meet = c_.meets[m];
     ++meet.asked;
-    const MovedBody &a = c_.bodies[meet.body[0]], &b = c_.bodies[meet.body[1]];
-    if (!isStopped(a, b) && !isStopped(b, a)) return;
-    const Impact impact = impactOf(world_, step_, meet, from);
     if (!impact.happens) return;
     const uint64_t key = uint64_t(meet.shape[0]) << 32 | meet.shape[1];
     c_.queue.push_back({impact.time, key, m, meet.asked, impact.normal});
     std::push_heap(c_.queue.begin(), c_.queue.end(), isAfter);
+  }
+
+  void ask(uint32_t m, float from) { plan(m, isOpen(m) ? impactOf(world_, step_, c_.meets[m], from) : Impact{}); }
+
+  void askAll() {
+    const auto count = static_cast<uint32_t>(c_.meets.size());
+    c_.answers.resize(count);
+    step_.jobs->forRange(count, 8, [&](uint32_t begin, uint32_t end, int) {
+      for (uint32_t m = begin; m < end; ++m)
+        c_.answers[m] = isOpen(m) ? impactOf(world_, step_, c_.meets[m], 0) : Impact{};
+    });
+    for (uint32_t m = 0; m < count; ++m) plan(m, c_.answers[m]);
   }
 
   void happen(const PlannedImpact& impact) {
@@ -268,12 +285,25 @@ void listFast(const WorldData& world, StepData& step) {
   for (MovedBody& moved : c.bodies) moved.motion = motionOf(world, step, moved.slot);
 }
 
+/// World-axes product of the body's inertia, or its inverse, at rotation q.
+Vec3 turnedProduct(const SymMat3& local, Quat q, Vec3 v) {
+  return rotate(q, fromRow(toRow(local) * toRow(rotate(conjugate(q), v))));
+}
+
+/// What carries a body does not move it along or about what is locked.
+Pose unlockedPose(const BodyData& body, const MovedBody& moved, Pose pose) {
+  pose.position = body.position + unlocked(toFloat(pose.position - body.position), body.locks);
+  if (body.locks >> 3) pose.rotation = at(moved.before, moved.time).rotation;
+  return pose;
+}
+
 /// The pose where the body was left, and its velocity as it turns there with the angular momentum that it has.
 void endThere(const WorldData& world, StepData& step, const MovedBody& moved) {
   const BodyData& body = world.bodies[moved.slot];
   const uint32_t index = step.endOf[moved.slot];
   StepData::EndState& end = step.end[index];
-  const Pose pose = at(moved.motion, 1);
+  Pose pose = at(moved.motion, 1);
+  if (moved.state == State::Carried && body.locks != 0) pose = unlockedPose(body, moved, pose);
   if ((body.locks >> 3) == 0) {
     const Vec3 momentum = fromRow(turnedProduct(toRow(body.inertia), toRow(end.rotation), toRow(end.angularVelocity)));
     end.angularVelocity = fromRow(turnedProduct(toRow(body.invInertia), toRow(pose.rotation), toRow(momentum)));

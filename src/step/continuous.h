@@ -47,12 +47,12 @@ struct MovedBody {
   uint32_t slot = kNone;
   State state = State::Free;
   bool isFast = false;
-  float time = 1;               ///< at which it was stopped or is carried from
-  uint32_t firstMeet = kNone;   ///< ShapesMeet::next leads on
+  float time = 1;              ///< at which it was stopped or is carried from
+  uint32_t firstMeet = kNone;  ///< ShapesMeet::next leads on
   BodyMotion motion;
   BodyMotion before;  ///< up to `time`, where it is not free any more
   Vec3 turned;        ///< [rad] what it turns in all, likewise
-  Aabb box;     ///< on all its way; of fast ones
+  Aabb box;           ///< on all its way; of fast ones
 };
 
 /// Two shapes whose bounds meet on their way.
@@ -75,11 +75,12 @@ struct ContinuousData {
   std::vector<MovedBody> bodies;
   std::vector<uint32_t> indexOf;  ///< by body slot: in `bodies`
   std::vector<ShapesMeet> meets;
-  std::vector<PlannedImpact> queue;  ///< a heap
-  std::vector<uint32_t> byX;         ///< fast bodies by where they begin along x
-  std::vector<uint32_t> group;       ///< body slots that stop together
-  std::vector<uint32_t> changed;     ///< in `bodies`: by the last impact
-  std::vector<uint64_t> visits;      ///< triggers and fast bodies that may pass through them: shape slots
+  std::vector<Impact> answers;          ///< by meet, to what is asked first
+  std::vector<PlannedImpact> queue;     ///< a heap
+  std::vector<uint32_t> byX;            ///< fast bodies by where they begin along x
+  std::vector<uint32_t> group;          ///< body slots that stop together
+  std::vector<uint32_t> changed;        ///< in `bodies`: by the last impact
+  std::vector<uint64_t> visits;         ///< triggers and fast bodies that may pass through them: shape slots
   std::vector<TriggerEvent> crossings;  ///< triggers that were entered and left, of all substeps so far
 };
 

@@ -61,8 +61,8 @@ class Pair {
 };
 
 Question questionOf(const WorldData& world, const StepData& step, const ShapesMeet& meet, float size) {
-  const bool hooked = world.contactHook && (world.shapes[meet.shape[0]].contactHook ||
-                                            world.shapes[meet.shape[1]].contactHook);
+  const bool hooked =
+      world.contactHook && (world.shapes[meet.shape[0]].contactHook || world.shapes[meet.shape[1]].contactHook);
   Question q{};
   q.deep = std::max(kDeep * size, kLeastDeep * step.slop);
   q.deepTouching = std::max(kDeepTouching * size, q.deep);
@@ -79,8 +79,7 @@ Impact onSurface(const ShapeGeom& a, const ShapeMotion& motionA, const ShapeGeom
   float start = 0;
   bool known = false;
   const auto before = [&](float) {
-    if (!known)
-      start = distanceToSurface(a, at(motionA, q.from), surface, at(motionB, q.from), q.margin + q.tolerance);
+    if (!known) start = distanceToSurface(a, at(motionA, q.from), surface, at(motionB, q.from), q.margin + q.tolerance);
     known = true;
     return start;
   };
