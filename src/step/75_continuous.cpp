@@ -305,8 +305,8 @@ void endThere(const WorldData& world, StepData& step, const MovedBody& moved) {
   Pose pose = at(moved.motion, 1);
   if (moved.state == State::Carried && body.locks != 0) pose = unlockedPose(body, moved, pose);
   if ((body.locks >> 3) == 0) {
-    const Vec3 momentum = fromRow(turnedProduct(toRow(body.inertia), toRow(end.rotation), toRow(end.angularVelocity)));
-    end.angularVelocity = fromRow(turnedProduct(toRow(body.invInertia), toRow(pose.rotation), toRow(momentum)));
+    const Vec3 momentum = turnedProduct(body.inertia, end.rotation, end.angularVelocity);
+    end.angularVelocity = turnedProduct(body.invInertia, pose.rotation, momentum);
   }
   end.position = pose.position, end.rotation = pose.rotation;
   const Vec3 way = toFloat(end.position - body.position);

@@ -136,7 +136,7 @@ void putNear(const std::byte*& from, Vec3& now, Vec3 expected, uint32_t way) {
 }
 
 /// More than any pair takes.
-constexpr size_t kPairBytes = 640;
+constexpr size_t kPairBytes = 768;
 
 // Bits of a point's head.
 constexpr uint32_t kOtherName = 1u << 2, kPushes = 1u << 3, kRebounds = 1u << 4, kOtherSticks = 1u << 5;
@@ -247,10 +247,37 @@ void putOther(const std::byte*& from, uint32_t bits, uint32_t bit, T& now, const
     now = expected;
 }
 
+/// What follows of a kept manifold: of one that lies apart no points.
+template <class At, class Kept>
+void codeKept(At& at, Kept& kept) {
+  if (kept.what == KeptManifold::What::Nothing) return;
+  put(at, kept.offset), put(at, kept.turn), put(at, kept.clear), put(at, kept.reach);
+  if (kept.what == KeptManifold::What::Apart) return;
+  put(at, kept.normal);
+  for (auto* line : {&kept.x, &kept.y, &kept.z, &kept.height})
+    for (auto& number : *line) put(at, number);
+}
+
+void writeKept(std::byte*& to, const KeptManifold& kept) {
+  auto& [what, aroundBase, offset, turn, clear, reach, normal, x, y, z, height] = kept;
+  put(to, static_cast<uint8_t>(static_cast<uint8_t>(what) << 1 | aroundBase));
+  codeKept(to, kept);
+}
+
+void readKept(const std::byte*& from, KeptManifold& kept) {
+  uint8_t head = 0;
+  put(from, head);
+  require(head >> 1 <= static_cast<uint8_t>(KeptManifold::What::PointsOnB), "a manifold that is kept in no way");
+  kept = {};
+  kept.what = static_cast<KeptManifold::What>(head >> 1);
+  kept.aroundBase = head & 1;
+  codeKept(from, kept);
+}
+
 void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expected& expected) {
   // All members by name, so that a new one does not compile before it is written here and read below.
   auto& [shapeA, shapeB, bodyA, bodyB, generation, patch, material, element, hasSurface, isTrigger, triggerIsA, reports,
-         wantsHits, hasHook, isFull, touching, wasTouching, touchBegins, origin, manifold, normal, t1, t2, points,
+         wantsHits, hasHook, isFull, touching, wasTouching, touchBegins, origin, manifold, kept, normal, t1, t2, points,
          pointCount, staticFriction, friction, restitution, torsionalFriction, rollingFriction, turn, torque, slides,
          landedSliding, gonePoints, mean] = pair;
   std::byte* const head = to;
@@ -281,6 +308,7 @@ void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expe
   const int count = pointsOf(pair);
   if (count == 0) putOther(to, bits, kLastPoint, manifold.points[0].position, Vec3{});
   for (int i = 0; i < count; ++i) writePoint(to, pair, i, expected);
+  writeKept(to, kept);
   std::memcpy(head, &bits, sizeof(bits));
 }
 
@@ -329,6 +357,7 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
   if (bits & kMean) expected.mean = pair.mean + 1;
   if (count == 0) putOther(from, bits, kLastPoint, pair.manifold.points[0].position, Vec3{});
   for (int i = 0; i < count; ++i) readPoint(from, pair, i, expected);
+  readKept(from, pair.kept);
 }
 
 }  // namespace
