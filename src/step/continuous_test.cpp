@@ -225,8 +225,8 @@ TEST(Continuous, ABallMeetsASwingingDoor) {
   for (int i = 0; i < 8; ++i) {
     World world(weightless());
     const BodyId door = world.create(BodyDef{.position = {0, 0, 0.5},
-                                             .angularVelocity = {0, 10, 0},
                                              .linearVelocity = {5, 0, 0},
+                                             .angularVelocity = {0, 10, 0},
                                              .shape = Box{0.02f, 1, 0.5f},
                                              .mass = 20});
     const Quat up{0.70710678f, 0, 0, 0.70710678f};
@@ -239,7 +239,9 @@ TEST(Continuous, ABallMeetsASwingingDoor) {
       gap = std::max(gap, world.gap(hinge));
       // In the door's frame the ball stays in front.
       const Pose local = inverse(world.pose(door)) * world.pose(ball);
-      if (std::abs(local.position.z) < 0.45) EXPECT_GT(local.position.x, 0) << i << " " << k;
+      if (std::abs(local.position.z) < 0.45) {
+        EXPECT_GT(local.position.x, 0) << i << " " << k;
+      }
     }
     EXPECT_LT(gap, 2e-3);
   }

@@ -12,7 +12,7 @@ constexpr float kLeak = 0.01f;        ///< share of a contact multiplier that ea
 constexpr float kJointLeak = 0.001f;  ///< the same of joints that no tree holds
 constexpr float kSlop = 0.001f;       ///< of the length unit
 constexpr float kLoadDepth = 0.005f;  ///< of the length unit: without gravity
-constexpr float kNegligible = 2e-4f;  ///< of the load depth, a micrometre: what a search need not correct
+constexpr float kNegligible = 1e-4f;  ///< of the load depth, a micrometre: what a search need not correct
 constexpr int kKrylovIterations = 12;
 
 }  // namespace
