@@ -37,7 +37,7 @@ Figure ballAtWall(const Settings& settings, bool mesh) {
       farthest = std::max(farthest, model.world.pose(ball).position.x);
     }
   }
-  return atMost("ball_x", farthest, 0, "m", mesh ? "wall=triangles" : "wall=box");
+  return {"ball_x", mesh ? "wall=triangles" : "wall=box", farthest, -100, 0, "m"};
 }
 
 // A rod of 2 m about its middle, which it keeps; the post stands beside its end.
@@ -56,11 +56,13 @@ Figure rodAtPost(const Settings& settings) {
       const Quat before = model.world.pose(rod).rotation;
       model.world.step(static_cast<float>(kDt));
       const Quat step = model.world.pose(rod).rotation * conjugate(before);
-      sum += 2 * std::atan2(double{step.y}, double{step.w});
+      // Of q and -q, which are the same turn, the one of less than half a turn.
+      const double sign = step.w < 0 ? -1 : 1;
+      sum += 2 * std::atan2(sign * double{step.y}, sign * double{step.w});
       turned = std::max(turned, sum - angle);
     }
   }
-  return atMost("rod_beyond_post", turned, 0, "rad");
+  return {"rod_beyond_post", "", turned, -100, 0, "rad"};
 }
 
 // What the ends of two bodies that fly at each other along x say.
@@ -69,7 +71,7 @@ Figure ballsHeadOn(const Settings& settings) {
   for (int i = 0; i < 10; ++i) {
     Build build("bullet", settings, weightless());
     const BodyId left = build.ball("left", kBall, {-5 - 0.21 * i, 0, 0}, 1, {{100, 0, 0}, {}});
-    const BodyId right = build.ball("right", kBall, {5, 0.02, 0}, 1, {{-100, 0, 0}, {}});
+    const BodyId right = build.ball("right", kBall, {5, 0, 0}, 1, {{-100, 0, 0}, {}});
     Model model = build.take();
     for (int k = 0; k < 30; ++k) {
       model.world.step(static_cast<float>(kDt));

@@ -21,6 +21,21 @@ bool isBefore(const PlannedImpact& x, const PlannedImpact& y) {
 /// For a heap with the first impact on top.
 bool isAfter(const PlannedImpact& x, const PlannedImpact& y) { return isBefore(y, x); }
 
+/// Whether a joint ties a body to another that moves. Such a body is an obstacle to others, but goes its own way: to
+/// stop it would take from the solver what it moved to keep the joints, step after step, until they tear.
+bool isTied(const WorldData& world, uint32_t body) {
+  uint32_t next = kNone;
+  for (uint32_t j = world.bodies[body].firstJoint; j != kNone; j = next) {
+    const JointData& joint = world.joints[j];
+    next = joint.next[sideOf(joint, body)];
+    if (!acts(world, j)) continue;
+    bool tied = false;
+    forEachBody(world, j, [&](uint32_t other) { tied = tied || (other != body && isDynamic(world, other)); });
+    if (tied) return true;
+  }
+  return false;
+}
+
 class Search {
  public:
   Search(WorldData& world, StepData& step) : world_(world), step_(step), c_(step.continuous) {}
@@ -138,7 +153,7 @@ class Search {
   }
   bool isStopped(const MovedBody& moved, const MovedBody& by) const {
     return moved.state == State::Free && isDynamic(moved) && !bodyOf(moved).asleep && bodyOf(moved).continuous &&
-           (moved.isFast || isUnstoppable(by));
+           !isTied(world_, moved.slot) && (moved.isFast || isUnstoppable(by));
   }
 
   /// Whether one of the two would stop.
@@ -261,7 +276,7 @@ void addFast(const WorldData& world, StepData& step, uint32_t slot, Vec3 way, Ve
   const float size = body.minExtent > 0 ? body.minExtent : kSpeculative * world.def.lengthUnit;
   // A ball that turns goes nowhere.
   const float far = length(way) + length(turn) * std::max(body.radius - body.minExtent, 0.0f);
-  if (!body.continuous || far <= kFastWay * size || body.firstShape == kNone) return;
+  if (!body.continuous || far <= kFastWay * size || body.firstShape == kNone || isTied(world, slot)) return;
   ContinuousData& c = step.continuous;
   c.bodies.push_back({});
   c.bodies.back().slot = slot;

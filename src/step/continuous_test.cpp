@@ -247,27 +247,6 @@ TEST(Continuous, ABallMeetsASwingingDoor) {
   }
 }
 
-// Bodies that hang together stop together.
-TEST(Continuous, JointsHoldWhereOneOfTheirBodiesMeetsAWall) {
-  World world(weightless());
-  addBoxWall(world);
-  std::vector<BodyId> links;
-  for (int i = 0; i < 4; ++i)
-    links.push_back(world.create(
-        BodyDef{.position = {-3.3 - 0.5 * i, 0, 0}, .linearVelocity = {60, 0, 0}, .shape = Capsule{0.05f, 0.1f}}));
-  std::vector<JointId> joints;
-  for (size_t i = 0; i + 1 < 4; ++i)
-    joints.push_back(world.create(BallJoint{
-        .bodyA = links[i], .bodyB = links[i + 1], .frameA = {{-0.25, 0, 0}, {}}, .frameB = {{0.25, 0, 0}, {}}}));
-  double gap = 0;
-  for (int k = 0; k < 30; ++k) {
-    world.step(kDt);
-    for (const JointId joint : joints) gap = std::max(gap, world.gap(joint));
-    for (const BodyId link : links) EXPECT_LT(world.pose(link).position.x, 0);
-  }
-  EXPECT_LT(gap, 0.01);
-}
-
 // A thin kinematic wall sweeps a row of resting boxes along.
 TEST(Continuous, AFastKinematicWallLeavesNothingBehind) {
   for (const Vec3 spin : {Vec3{}, Vec3{0, 0, 0.5f}}) {
