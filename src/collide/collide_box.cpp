@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "collide/box_pair.h"
+#include "lane/wide.h"
 
 namespace avbd {
 namespace {
@@ -98,8 +99,31 @@ inline bool edgeAxis(const BoxPair& p, float& floor, EdgeAxis& best) {
   return true;
 }
 
+using Row = lane::Wide<4>;
+
+Row row(float x, float y, float z) { return Row(Row::F{x, y, z, 0}); }
+
+/// Whether any edge axis can count against `floor`: all nine at once, as edgeAxis() does it.
+bool mayBeEdge(const BoxPair& p, float floor) {
+  Row r[3], size[3];
+  for (int i = 0; i < 3; ++i) r[i] = row(p.r[i][0], p.r[i][1], p.r[i][2]), size[i] = abs(r[i]);
+  const Row next = row(p.hb[1], p.hb[2], p.hb[0]), last = row(p.hb[2], p.hb[0], p.hb[1]);
+  uint32_t found = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int i1 = kNext[i], i2 = kLast[i];
+    const Row far = abs(p.da[i2] * r[i1] - p.da[i1] * r[i2]);
+    const Row sizeNext(__builtin_shufflevector(size[i].v, size[i].v, 1, 2, 0, 3));
+    const Row sizeLast(__builtin_shufflevector(size[i].v, size[i].v, 2, 0, 1, 3));
+    const Row reach = p.ha[i1] * size[i2] + p.ha[i2] * size[i1] + next * sizeLast + last * sizeNext;
+    const Row gap = far - reach - kRounding * (far + reach);
+    found |= toBits(!(gap <= smaller(floor, 0)));
+  }
+  return (found & 7) != 0;
+}
+
 /// False if an edge axis separates by more than the margin: by `floor`.
 bool edgeAxes(const BoxPair& p, float& floor, EdgeAxis& best) {
+  if (!mayBeEdge(p, floor)) return true;
   return edgeAxis<0, 0>(p, floor, best) && edgeAxis<0, 1>(p, floor, best) && edgeAxis<0, 2>(p, floor, best) &&
          edgeAxis<1, 0>(p, floor, best) && edgeAxis<1, 1>(p, floor, best) && edgeAxis<1, 2>(p, floor, best) &&
          edgeAxis<2, 0>(p, floor, best) && edgeAxis<2, 1>(p, floor, best) && edgeAxis<2, 2>(p, floor, best);
