@@ -108,6 +108,7 @@ TEST(Bodies, NewCentreKeepsEveryPointWhereItWasAndAsFast) {
   data.pairs[0].pointCount = 1;
   data.pairs[0].points[0].anchorA = {0.5f, 0, 0};
   data.pairs[0].points[0].anchorB = {0, 0.5f, 0};
+  data.pairs[0].kept.what = KeptManifold::What::PointsOnA;
   const BodyData& body = data.bodies[slot];
   const Pose before = bodyPose(body);
   setMass(data, slot, {.mass = 2, .center = {0.25f, 0, 0}});
@@ -119,6 +120,7 @@ TEST(Bodies, NewCentreKeepsEveryPointWhereItWasAndAsFast) {
   EXPECT_EQ(data.joints[joint].anchor[1], (Vec3{0, -1, 0}));
   EXPECT_EQ(data.pairs[0].points[0].anchorA, (Vec3{0.25f, 0, 0}));
   EXPECT_EQ(data.pairs[0].points[0].anchorB, (Vec3{0, 0.5f, 0}));
+  EXPECT_EQ(data.pairs[0].kept.what, KeptManifold::What::Nothing) << "it is about the old centre";
   EXPECT_EQ(data.shapes[0].toMass.p, (Vec3{-0.25f, 0, 0}));
 }
 

@@ -108,6 +108,7 @@ TEST(StateHash, SeesEveryFieldThatAStepChanges) {
   data.pairs.resize(1);
   data.pairs[0].shapeB = data.pairs[0].bodyB = 1;
   data.pairs[0].pointCount = 1;
+  data.pairs[0].kept.what = KeptManifold::What::PointsOnA;
   const uint64_t before = stateHash(data);
   EXPECT_EQ(stateHash(WorldData(data)), before);
   using Change = std::function<void(WorldData&)>;
@@ -128,6 +129,15 @@ TEST(StateHash, SeesEveryFieldThatAStepChanges) {
       [](WorldData& d) { d.pairs[0].points[0].feature = 1; },
       [](WorldData& d) { d.pairs[0].points[0].rebound = 1; },
       [](WorldData& d) { d.pairs[0].points[0].sticks = 1; },
+      [](WorldData& d) { d.pairs[0].kept.what = KeptManifold::What::PointsOnB; },
+      [](WorldData& d) { d.pairs[0].kept.aroundBase = true; },
+      [](WorldData& d) { d.pairs[0].kept.offset.z = 1; },
+      [](WorldData& d) { d.pairs[0].kept.turn.x = 1; },
+      [](WorldData& d) { d.pairs[0].kept.clear = 1; },
+      [](WorldData& d) { d.pairs[0].kept.reach = 1; },
+      [](WorldData& d) { d.pairs[0].kept.normal.y = 1; },
+      [](WorldData& d) { d.pairs[0].kept.x[0] = 1; },
+      [](WorldData& d) { d.pairs[0].kept.height[0] = 1; },
       [](WorldData& d) { d.pairs.clear(); },
       [](WorldData& d) { d.bodyIds.create(), d.bodies.push_back({}); },
   };
