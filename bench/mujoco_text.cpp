@@ -3,6 +3,8 @@
 
 #include <avbd/hull.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <unordered_map>
@@ -51,6 +53,7 @@ class Writer {
   void writeInertia(BodyId id);
   std::string size(const Geometry& geometry, Pose& pose);
   void writeEquality(const Tie& tie);
+  size_t makeRoom(size_t moving, size_t equalities);
 
   const World& world_;
   const Layout& layout_;
@@ -198,6 +201,18 @@ void Writer::writeEquality(const Tie& tie) {
     rules_ += text("<connect body1=\"b%d\" anchor=\"%.9g %.9g %.9g\"", first, at.x, at.y, at.z) + other + "/>\n";
 }
 
+// MuJoCo keeps dense matrices of all rows that there may be by each other and by the freedoms, in less than 2^31 bytes.
+size_t Writer::makeRoom(size_t moving, size_t equalities) {
+  constexpr size_t kContactsPerBody = 12, kRowsPerContact = 4, kRowsPerEquality = 6;
+  constexpr double kBytes = 1.9e9, kByRow = 12, kByFreedom = 40;
+  const double f = kByFreedom * static_cast<double>(out_.freedoms);
+  const auto most = static_cast<size_t>((std::sqrt(f * f + 4 * kByRow * kBytes) - f) / (2 * kByRow));
+  const size_t held = kRowsPerEquality * equalities;
+  if (most < held + kRowsPerContact * moving) refuse("scene", "must fit MuJoCo's dense matrices");
+  out_.contacts = std::min(kContactsPerBody * moving + 50, (most - held) / kRowsPerContact);
+  return held + kRowsPerContact * out_.contacts;
+}
+
 MujocoText Writer::write() {
   findTies();
   findTrees();
@@ -213,13 +228,11 @@ MujocoText Writer::write() {
   std::string excluded;
   for (const auto& [a, b] : world_.excludedPairs())
     excluded += text("<exclude body1=\"b%d\" body2=\"b%d\"/>\n", slots_.at(a.index), slots_.at(b.index));
-  constexpr size_t kContactsPerBody = 8, kRowsPerContact = 4, kRowsPerEquality = 6;
-  out_.contacts = kContactsPerBody * moving + 50;
-  const size_t rows = kRowsPerContact * out_.contacts + kRowsPerEquality * equalities;
+  const size_t rows = makeRoom(moving, equalities);
   const Vec3 g = world_.definition().gravity;
   out_.xml = "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\" balanceinertia=\"true\"/>\n";
   out_.xml += text("<size njmax=\"%zu\" nconmax=\"%zu\" nstack=\"%zu\"/>\n", rows, out_.contacts,
-                   60 * rows + 200 * out_.freedoms + 100000);
+                   100 * rows + 2 * rows * out_.freedoms + 4 * out_.freedoms * out_.freedoms + 100000);
   out_.xml += text("<option timestep=\"%.9g\" gravity=\"%.9g %.9g %.9g\"%s/>\n", 1.0 / 60, g.x, g.y, g.z,
                    out_.freedoms > 300 ? " solver=\"CG\" jacobian=\"sparse\"" : "");
   out_.xml += "<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + bodies_ + "</worldbody>\n<equality>\n" + rules_ +
