@@ -97,7 +97,7 @@ Model rain(const Settings& settings) {
   for (int n = 0; n < kSide * kSide * kLayers; ++n) {
     const int column = n % kSide, row = n / kSide % kSide, layer = n / (kSide * kSide);
     BodyDef def;
-    def.position = {1.2 * (column - (kSide - 1) / 2.0) + 0.1 * draws.next(), 6 + 1.2 * layer,
+    def.position = {1.2 * (column - (kSide - 1) / 2.0) + 0.1 * draws.next(), 8 + 1.2 * layer,
                     1.2 * (row - (kSide - 1) / 2.0) + 0.1 * draws.next()};
     def.rotation = turned({0, 1, 0}, 3 * draws.next()) * turned({1, 0, 0}, 3 * draws.next());
     def.shape = shapes[static_cast<size_t>(n + layer) % shapes.size()];
@@ -150,7 +150,7 @@ Scene jointGridScene() {
           120,
           watch,
           [](const Evidence& e) {
-            return std::vector<Figure>{atMost("gap", e.gapLate, 0.100, "m"), holds("finite", e.finite)};
+            return std::vector<Figure>{atMost("gap", e.gapLate, 0.020, "m"), holds("finite", e.finite)};
           }};
 }
 
