@@ -54,7 +54,15 @@ void Hash64::bytes(const void* data, size_t size) {
     p += missing;
     size -= missing;
   }
-  for (; size >= kBlock; p += kBlock, size -= kBlock) mixBlock(p);
+  // In registers: in memory each block would wait for the one before to be stored.
+  uint64_t a = lanes_[0], b = lanes_[1], c = lanes_[2], d = lanes_[3];
+  for (; size >= kBlock; p += kBlock, size -= kBlock) {
+    a = mix(a, load(p), kLane[0]);
+    b = mix(b, load(p + 8), kLane[1]);
+    c = mix(c, load(p + 16), kLane[2]);
+    d = mix(d, load(p + 24), kLane[3]);
+  }
+  lanes_[0] = a, lanes_[1] = b, lanes_[2] = c, lanes_[3] = d;
   if (size > 0) std::memcpy(tail_, p, size);
 }
 

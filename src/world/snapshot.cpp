@@ -162,7 +162,7 @@ void read(Reader& in, const WorldData& world, SharedTable& table, WorldData& out
   codeSleep(in, out);
   checkSleep(out);
   codeEvents(in, out);
-  checkPairs(out);
+  for (const LostTouch& lost : out.lostTouches) require(lost.wasTouching, "a touch that never was");
   require(in.left() == 0, "more than it says");
 }
 

@@ -131,7 +131,7 @@ void checkSlots(const std::vector<uint32_t>& slots, size_t count) {
   require(std::adjacent_find(slots.begin(), slots.end(), std::greater_equal<>()) == slots.end(), "a list's order");
 }
 
-void checkPair(const WorldData& data, const PairData& pair) {
+void checkLiving(const WorldData& data, const PairData& pair) {
   const ShapeData &a = data.shapes[pair.shapeA], &b = data.shapes[pair.shapeB];
   require(a.body == pair.bodyA && b.body == pair.bodyB && a.body != b.body, "a pair's bodies");
   require(isConvex(a.geom.type) || isConvex(b.geom.type), "a pair of two surfaces");
@@ -160,24 +160,14 @@ void checkLinks(const WorldData& data) {
   checkSlots(data.forgotten, data.shapes.size());
 }
 
-void checkPairList(const WorldData& data, const std::vector<PairData>& pairs) {
-  const PairData* before = nullptr;
-  for (const PairData& pair : pairs) {
-    const bool goesOn = before && before->key() == pair.key();
-    require(pair.shapeA < pair.shapeB && (!before || before->key() <= pair.key()), "the order of pairs");
-    require(pair.patch == (goesOn ? before->patch + 1 : 0) && (!goesOn || pair.hasSurface), "a pair's run");
-    require(pair.mean == kNone || pair.mean < data.means.size(), "a pair's means");
-    if (lives(data, pair))
-      checkPair(data, pair);
-    else
-      require(isForgotten(data, pair.shapeA) || isForgotten(data, pair.shapeB), "a pair of shapes that are gone");
-    before = &pair;
-  }
-}
-
-void checkPairs(const WorldData& data) {
-  checkPairList(data, data.pairs);
-  for (const LostTouch& lost : data.lostTouches) require(lost.wasTouching, "a touch that never was");
+void checkPair(const WorldData& data, const PairData& pair, const PairData* before) {
+  const bool goesOn = before && before->key() == pair.key();
+  require(pair.shapeA < pair.shapeB && (!before || before->key() <= pair.key()), "the order of pairs");
+  require(pair.patch == (goesOn ? before->patch + 1 : 0) && (!goesOn || pair.hasSurface), "a pair's run");
+  if (lives(data, pair))
+    checkLiving(data, pair);
+  else
+    require(isForgotten(data, pair.shapeA) || isForgotten(data, pair.shapeB), "a pair of shapes that are gone");
 }
 
 }  // namespace avbd::snapshot

@@ -55,7 +55,12 @@ Basis basisOf(Vec3 n) {
 struct Matrix {
   Vec3 x, y, z;  ///< columns
 };
-Matrix matrixOf(Quat q) { return {rotate(q, Vec3{1, 0, 0}), rotate(q, Vec3{0, 1, 0}), rotate(q, Vec3{0, 0, 1})}; }
+Matrix matrixOf(Quat q) {
+  const float x = q.x + q.x, y = q.y + q.y, z = q.z + q.z;
+  const float xx = q.x * x, yy = q.y * y, zz = q.z * z, xy = q.x * y, xz = q.x * z, yz = q.y * z;
+  const float wx = q.w * x, wy = q.w * y, wz = q.w * z;
+  return {{1 - (yy + zz), xy + wz, xz - wy}, {xy - wz, 1 - (xx + zz), yz + wx}, {xz + wy, yz - wx, 1 - (xx + yy)}};
+}
 Vec3 operator*(const Matrix& m, Vec3 v) { return m.x * v.x + m.y * v.y + m.z * v.z; }
 Vec3 transposed(const Matrix& m, Vec3 v) { return {dot(m.x, v), dot(m.y, v), dot(m.z, v)}; }
 
@@ -72,18 +77,33 @@ struct Expected {
   Matrix turnA, turnB;  ///< of the bodies
   Vec3 apart;           ///< from A to B
 
+  /// The pair's shapes are known.
   void meet(const WorldData& data, const PairData& pair, bool sameA) {
-    const uint32_t bodyA = data.shapes[pair.shapeA].body, bodyB = data.shapes[pair.shapeB].body;
-    ends[0] = bodyA, ends[1] = bodyB;
-    ends[2] = data.shapeIds.id(pair.shapeA).generation, ends[3] = data.shapeIds.id(pair.shapeB).generation;
-    ends[4] = bodyA == kNone ? 0 : data.bodyIds.id(bodyA).generation;
+    if (!sameA) meetA(data, pair.shapeA);
+    const uint32_t bodyB = data.shapes[pair.shapeB].body;
+    ends[1] = bodyB;
+    ends[3] = data.shapeIds.id(pair.shapeB).generation;
     ends[5] = bodyB == kNone ? 0 : data.bodyIds.id(bodyB).generation;
-    if (bodyA == kNone || bodyB == kNone) return;
-    const BodyData &a = data.bodies[bodyA], &b = data.bodies[bodyB];
-    if (!sameA) origin = a.position, turnA = matrixOf(a.rotation);
+  }
+  /// It has points.
+  void touch(const WorldData& data) {
+    if (ends[0] == kNone || ends[1] == kNone) return;
+    const BodyData &a = data.bodies[ends[0]], &b = data.bodies[ends[1]];
+    if (!turnedA) turnA = matrixOf(a.rotation), turnedA = true;
     turnB = matrixOf(b.rotation);
     apart = toFloat(b.position - a.position);
   }
+
+ private:
+  void meetA(const WorldData& data, uint32_t shape) {
+    const uint32_t body = data.shapes[shape].body;
+    ends[0] = body;
+    ends[2] = data.shapeIds.id(shape).generation;
+    ends[4] = body == kNone ? 0 : data.bodyIds.id(body).generation;
+    if (body != kNone) origin = data.bodies[body].position;
+    turnedA = false;
+  }
+  bool turnedA = false;
 };
 
 // Floats as integers in their order, so that near ones differ by little. Each undoes itself.
@@ -307,6 +327,7 @@ void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expe
   if (mean != kNone) expected.mean = mean + 1;
   const int count = pointsOf(pair);
   if (count == 0) putOther(to, bits, kLastPoint, manifold.points[0].position, Vec3{});
+  if (count > 0) expected.touch(data);
   for (int i = 0; i < count; ++i) writePoint(to, pair, i, expected);
   writeKept(to, kept);
   std::memcpy(head, &bits, sizeof(bits));
@@ -356,6 +377,7 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
   if (bits & kOtherMean) put(from, pair.mean);
   if (bits & kMean) expected.mean = pair.mean + 1;
   if (count == 0) putOther(from, bits, kLastPoint, pair.manifold.points[0].position, Vec3{});
+  if (count > 0) expected.touch(data);
   for (int i = 0; i < count; ++i) readPoint(from, pair, i, expected);
   readKept(from, pair.kept);
 }
@@ -372,15 +394,21 @@ void codePairList(Writer& out, const WorldData& data, const std::vector<PairData
   }
 }
 
-void codePairList(Reader& in, const WorldData& data, std::vector<PairData>& pairs) {
+size_t codePairList(Reader& in, const WorldData& data, std::vector<PairData>& pairs) {
   pairs.resize(in.count(2 * sizeof(uint32_t)));
   Expected expected;
+  const PairData* before = nullptr;
+  size_t means = 0;
   for (PairData& pair : pairs) {
     const std::byte* const begin = in.piece(kPairBytes);
     const std::byte* from = begin;
     readPair(from, data, pair, expected);
     in.advance(static_cast<size_t>(from - begin));
+    checkPair(data, pair, before);
+    if (pair.mean != kNone) means = std::max(means, pair.mean + size_t{1});
+    before = &pair;
   }
+  return means;
 }
 
 void codePairs(Writer& out, const WorldData& data) {
@@ -389,8 +417,9 @@ void codePairs(Writer& out, const WorldData& data) {
 }
 
 void codePairs(Reader& in, WorldData& data) {
-  codePairList(in, data, data.pairs);
+  const size_t means = codePairList(in, data, data.pairs);
   list(in, data.means);
+  require(means <= data.means.size(), "a pair's means");
 }
 
 }  // namespace avbd::snapshot

@@ -29,15 +29,16 @@ void codeJoints(Reader& in, WorldData& data, const KnownThings& things);
 void codePairs(Writer& out, const WorldData& data);
 void codePairs(Reader& in, WorldData& data);
 void codePairList(Writer& out, const WorldData& data, const std::vector<PairData>& pairs);
-void codePairList(Reader& in, const WorldData& data, std::vector<PairData>& pairs);
+/// Checks each; returns how many means they name.
+size_t codePairList(Reader& in, const WorldData& data, std::vector<PairData>& pairs);
 /// What is awake, and the islands that sleep with their pairs and joints.
 void codeSleep(Writer& out, const WorldData& data);
 void codeSleep(Reader& in, WorldData& data);
 
 /// That a snapshot's content fits together: no index, list or flag leads a later call astray. Throws Unsound.
 void checkLinks(const WorldData& data);
-void checkPairs(const WorldData& data);
-void checkPairList(const WorldData& data, const std::vector<PairData>& pairs);
+/// The same of a pair and the one before it, which may be null.
+void checkPair(const WorldData& data, const PairData& pair, const PairData* before);
 void checkSleep(const WorldData& data);
 
 }  // namespace avbd::snapshot

@@ -29,16 +29,13 @@ bool isIn(const std::vector<uint32_t>& ascending, uint32_t slot) {
   return std::binary_search(ascending.begin(), ascending.end(), slot);
 }
 
-void checkIsland(const WorldData& data, uint32_t index, std::vector<uint8_t>& sleeps) {
+void checkIsland(const WorldData& data, uint32_t index, bool free, bool woken, std::vector<uint8_t>& sleeps) {
   const SleepingIsland& island = data.sleep.islands[index];
-  const bool woken = std::find(data.sleep.woken.begin(), data.sleep.woken.end(), index) != data.sleep.woken.end();
-  const bool free = std::find(data.sleep.free.begin(), data.sleep.free.end(), index) != data.sleep.free.end();
   require(free == island.bodies.empty() && !(free && woken), "an island of no body");
   require(!free || (island.joints.empty() && island.supports.empty() && island.pairs.empty()), "a free island");
   require(ascends(island.bodies) && ascends(island.supports), "an island's order");
   checkBelow(island.bodies, data.bodies.size()), checkBelow(island.supports, data.bodies.size());
   checkBelow(island.joints, data.joints.size());
-  checkPairList(data, island.pairs);
   if (woken) return;
   for (const uint32_t slot : island.bodies) {
     require(data.bodyIds.isAliveSlot(slot) && isDynamic(data, slot), "a sleeper that there is not");
@@ -67,7 +64,7 @@ void codeSleep(Reader& in, WorldData& data) {
     auto& [bodies, joints, supports, pairs] = island;
     list(in, bodies), list(in, joints), list(in, supports);
     checkBelow(bodies, data.bodies.size()), checkBelow(supports, data.bodies.size());
-    codePairList(in, data, pairs);
+    require(codePairList(in, data, pairs) == 0, "means of a sleeping pair");
   }
 }
 
@@ -78,7 +75,10 @@ void checkSleep(const WorldData& data) {
   for (const auto* slots : {&sleep.joints, &sleep.newJoints}) checkBelow(*slots, data.joints.size());
   for (const auto* indices : {&sleep.free, &sleep.woken}) checkBelow(*indices, sleep.islands.size());
   std::vector<uint8_t> sleeps(data.bodies.size());
-  for (uint32_t i = 0; i < sleep.islands.size(); ++i) checkIsland(data, i, sleeps);
+  std::vector<uint8_t> free(sleep.islands.size()), woken(sleep.islands.size());
+  for (const uint32_t i : sleep.free) require(free[i]++ == 0, "an island that is free twice");
+  for (const uint32_t i : sleep.woken) require(woken[i]++ == 0, "an island that woke twice");
+  for (uint32_t i = 0; i < sleep.islands.size(); ++i) checkIsland(data, i, free[i] != 0, woken[i] != 0, sleeps);
   std::vector<uint32_t> fresh = sleep.newAwake;
   std::sort(fresh.begin(), fresh.end());
   uint32_t asleep = 0;
