@@ -113,6 +113,14 @@ CLI::App* addPlay(CLI::App& app, PlayArguments& a) {
   return play;
 }
 
+CLI::App* addReplay(CLI::App& app, ReplayArguments& a, std::string& solver) {
+  CLI::App* replay =
+      app.add_subcommand("replay", "Make a recording's run again and compare each step; exit status 1 if they part");
+  replay->add_option("file", a.file, "FILE.avbd, as `avbd run --record` writes it")->required();
+  addSettings(*replay, a.settings, solver);
+  return replay;
+}
+
 CLI::App* addInfo(CLI::App& app, InfoArguments& a) {
   CLI::App* info = app.add_subcommand("info", "Say what a file holds, and what of it was ignored and why");
   info->add_option("file", a.file, "MJCF, URDF, a mesh (.obj, .stl, .msh), a recording (.avbd), or a scene's name")
@@ -173,10 +181,13 @@ Arguments parseArguments(std::vector<std::string> args) {
   CLI::App* verifyApp = addVerify(app, verify, solver);
   CLI::App* convertApp = addConvert(app, convert);
   CLI::App* playApp = addPlay(app, play);
+  ReplayArguments replay;
+  CLI::App* replayApp = addReplay(app, replay, solver);
   InfoArguments info;
   CLI::App* infoApp = addInfo(app, info);
   app.add_subcommand("scenes", "List the built-in scenes");
   refuseUnknownCommand(app, args);
+  run.given = args;
   try {
     std::reverse(args.begin(), args.end());
     app.parse(args);
@@ -205,6 +216,11 @@ Arguments parseArguments(std::vector<std::string> args) {
   }
   if (convertApp->parsed()) return convert;
   if (playApp->parsed()) return play;
+  if (replayApp->parsed()) {
+    setSolver(replay.settings, solver);
+    checkSettings(replay.settings);
+    return replay;
+  }
   if (infoApp->parsed()) return info;
   return ScenesArguments{};
 }

@@ -37,6 +37,7 @@ struct RunArguments {
   UrdfArguments urdf;
   bool json = false, report = true;
   scenes::Settings settings;
+  std::vector<std::string> given;  ///< the arguments as they were, for a recording to hold
 };
 
 struct BenchArguments {
@@ -63,6 +64,11 @@ struct PlayArguments {
   int port = kLivePort;
 };
 
+struct ReplayArguments {
+  std::string file;           ///< a recording
+  scenes::Settings settings;  ///< in place of the recorded run's own
+};
+
 struct InfoArguments {
   std::string file;  ///< a model, a mesh, a recording, or a scene's name
   std::optional<std::string> keyframe;
@@ -78,7 +84,7 @@ struct PrintText {
 };
 
 using Arguments = std::variant<PrintText, RunArguments, BenchArguments, VerifyArguments, ConvertArguments,
-                               PlayArguments, InfoArguments, ScenesArguments>;
+                               PlayArguments, ReplayArguments, InfoArguments, ScenesArguments>;
 
 /// `args` without the program's name. Throws BadInput.
 Arguments parseArguments(std::vector<std::string> args);

@@ -21,6 +21,7 @@ int dispatch(const Arguments& arguments, std::ostream& out, std::ostream& err) {
   if (const auto* verify = std::get_if<VerifyArguments>(&arguments)) return verifyCommand(*verify, out);
   if (const auto* convert = std::get_if<ConvertArguments>(&arguments)) return convertCommand(*convert, out, err);
   if (const auto* play = std::get_if<PlayArguments>(&arguments)) return playCommand(*play, out);
+  if (const auto* replay = std::get_if<ReplayArguments>(&arguments)) return replayCommand(*replay, out);
   if (const auto* info = std::get_if<InfoArguments>(&arguments)) return infoCommand(*info, out);
   return scenesCommand(out);
 }

@@ -9,7 +9,7 @@ namespace avbd::cli {
 
 enum ExitStatus : int {
   kExitDone = 0,
-  kExitCheckFailed = 1,  ///< of `bench` and `verify`
+  kExitCheckFailed = 1,  ///< of `bench`, `verify` and `replay`
   kExitBadInput = 2,     ///< one message on `err`; nothing was created, but for a recording that had begun
   kExitNonFinite = 3,    ///< the simulation left the finite numbers; nothing was created but the recording up to there
   kExitStopped = 130,    ///< by requestStop()

@@ -16,6 +16,9 @@ int convertCommand(const ConvertArguments& arguments, std::ostream& out, std::os
 /// Serves until requestStop(), which is how it ends in order.
 int playCommand(const PlayArguments& arguments, std::ostream& out);
 
+/// Status kExitCheckFailed where the run does not go as it was recorded.
+int replayCommand(const ReplayArguments& arguments, std::ostream& out);
+
 int infoCommand(const InfoArguments& arguments, std::ostream& out);
 
 /// The catalogue's scene. Throws BadInput that lists near names.

@@ -5,7 +5,9 @@
 #include <filesystem>
 
 #include "app/failure.h"
+#include "app/run_again.h"
 #include "io/file_error.h"
+#include "io/record/chunk.h"
 #include "viewer/page.h"
 
 namespace avbd::cli {
@@ -55,6 +57,7 @@ Outputs::Outputs(const RunArguments& a, const Model& model, const Plan& plan)
   recorder_ = std::make_unique<Recorder>(model, 1, kRecordContacts);
   try {
     writer_ = std::make_unique<RecordWriter>(a.record, recorder_->head());
+    writer_->addChunk(record::kRun, record::runContent(runOf(a)));
   } catch (const FileError& e) {
     throw BadInput(std::string("--record ") + e.what());
   }
@@ -64,6 +67,7 @@ Outputs::Outputs(const RunArguments& a, const Model& model, const Plan& plan)
 void Outputs::look(const Model& model, int64_t step, const Plan& plan) {
   const bool end = step == plan.steps;
   if (recorder_ && step > 0) recorder_->watch(model.world);
+  if (recorder_) steps_.push_back({static_cast<uint64_t>(step), model.world.hash(), model.world.stageHashes()});
   const bool rows = csv_ && csvSampler_.due(step);
   const bool onPage = pageRecorder_ && (pageSampler_.due(step) || end);  // the end belongs to page and recording
   const bool inRecord = recorder_ && (recordSampler_.due(step) || end);
@@ -86,11 +90,17 @@ void Outputs::record(const RecordedFrame& frame) {
     writer_->add(frame);
     const auto now = std::chrono::steady_clock::now();
     if (now - flushed_ < kFlushAfter) return;
-    writer_->flush();
+    flushRecording();
     flushed_ = now;
   } catch (const FileError& e) {
     throw BadInput(std::string("--record ") + e.what());
   }
+}
+
+void Outputs::flushRecording() {
+  writer_->flush();
+  if (!steps_.empty()) writer_->addChunk(record::kSteps, record::stepsContent(steps_));
+  steps_.clear();
 }
 
 void Outputs::commit(const ReportLines& report) {
@@ -104,7 +114,7 @@ void Outputs::commit(const ReportLines& report) {
   for (const auto& file : files)
     if (*file) (*file)->finish();
   try {
-    if (writer_) writer_->finish(report);
+    if (writer_) flushRecording(), writer_->finish(report);
   } catch (const FileError& e) {
     throw BadInput(std::string("--record ") + e.what());
   }

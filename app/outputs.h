@@ -14,6 +14,7 @@
 #include "app/recorder.h"
 #include "app/sampler.h"
 #include "app/trace.h"
+#include "io/record/run_again.h"
 #include "io/record/writer.h"
 
 namespace avbd::cli {
@@ -32,6 +33,7 @@ class Outputs {
  private:
   void refuseSame(const RunArguments& a) const;
   void record(const RecordedFrame& frame);
+  void flushRecording();
 
   Sampler csvSampler_, pageSampler_, recordSampler_;
   std::vector<BodyId> ids_;
@@ -43,6 +45,7 @@ class Outputs {
   std::unique_ptr<Recorder> pageRecorder_, recorder_;
   Recording page_;
   std::unique_ptr<RecordWriter> writer_;
+  std::vector<RecordedStep> steps_;  ///< not written yet
   std::chrono::steady_clock::time_point flushed_;
 };
 

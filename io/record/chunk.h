@@ -18,7 +18,7 @@ constexpr uint32_t typeOf(const char (&name)[5]) {
 }
 inline constexpr uint32_t kMeta = typeOf("META"), kBodies = typeOf("BODY"), kSurfaces = typeOf("SURF"),
                           kShapes = typeOf("SHAP"), kJoints = typeOf("JOIN"), kFrames = typeOf("FRAM"),
-                          kIndex = typeOf("INDX");
+                          kIndex = typeOf("INDX"), kRun = typeOf("RUNA"), kSteps = typeOf("STEP");
 /// Reserved: positions of soft bodies' vertices over a run of frames.
 inline constexpr uint32_t kSoftFrames = typeOf("SOFT");
 std::string typeName(uint32_t type);

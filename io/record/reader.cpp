@@ -20,7 +20,10 @@ bool isHead(uint32_t type) {
 /// Without these there is nothing to show the frames on.
 bool isNeeded(uint32_t type) { return type == kBodies || type == kSurfaces || type == kShapes; }
 
-bool isKnown(uint32_t type) { return isHead(type) || type == kFrames || type == kIndex; }
+/// For replay alone (run_again.h).
+bool isForReplay(uint32_t type) { return type == kRun || type == kSteps; }
+
+bool isKnown(uint32_t type) { return isHead(type) || isForReplay(type) || type == kFrames || type == kIndex; }
 
 bool ascend(const std::vector<double>& times) {
   return std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); }) &&
@@ -107,7 +110,7 @@ void RecordReader::takeIndex(uint64_t offset, uint64_t frames) {
     } else if (isHead(index.types[i])) {
       const auto [partHead, part] = storedAt(last, index.types[i]);
       takeHead(partHead, last, part);
-    } else {
+    } else if (!isForReplay(index.types[i])) {
       note("chunk " + typeName(index.types[i]) + " is not known to this version and left out");
     }
   }
@@ -185,7 +188,7 @@ void RecordReader::takeChunk(const ChunkHead& head, uint64_t offset, std::span<c
   }
   if (isHead(head.type))
     takeHead(head, offset, stored);
-  else
+  else if (!isForReplay(head.type))
     note("chunk " + typeName(head.type) + " is not known to this version and left out");
   list(head.type, offset, 0, 0);
 }

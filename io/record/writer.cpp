@@ -215,6 +215,11 @@ void RecordWriter::flush() {
   block_ = {};
 }
 
+void RecordWriter::addChunk(uint32_t type, const Bytes& content) {
+  if (!open_) throw std::logic_error("RecordWriter::addChunk after finish");
+  write(type, chunkBytes(type, content, options_.compress));
+}
+
 void RecordWriter::finish(const std::vector<std::pair<std::string, std::string>>& report) {
   if (!open_) return;
   checkReport(report);

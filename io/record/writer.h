@@ -37,6 +37,8 @@ class RecordWriter {
   void add(const RecordedFrame& frame);
   /// Writes what was added, so that others can read it.
   void flush();
+  /// Writes a chunk beside the frames (run_again.h).
+  void addChunk(uint32_t type, const record::Bytes& content);
   /// Flushes, writes the report, the index and the end. Nothing can be added after.
   void finish(const std::vector<std::pair<std::string, std::string>>& report = {});
   uint64_t frameCount() const { return index_.times.size() + block_.size(); }
