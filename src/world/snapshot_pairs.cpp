@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "avbd/rows/math.h"
+#include "world/snapshot_kept.h"
 #include "world/snapshot_parts.h"
 
 namespace avbd::snapshot {
@@ -52,18 +53,6 @@ Basis basisOf(Vec3 n) {
   return {{t1.x, t1.y, t1.z}, {t2.x, t2.y, t2.z}};
 }
 
-struct Matrix {
-  Vec3 x, y, z;  ///< columns
-};
-Matrix matrixOf(Quat q) {
-  const float x = q.x + q.x, y = q.y + q.y, z = q.z + q.z;
-  const float xx = q.x * x, yy = q.y * y, zz = q.z * z, xy = q.x * y, xz = q.x * z, yz = q.y * z;
-  const float wx = q.w * x, wy = q.w * y, wz = q.w * z;
-  return {{1 - (yy + zz), xy + wz, xz - wy}, {xy - wz, 1 - (xx + zz), yz + wx}, {xz + wy, yz - wx, 1 - (xx + yy)}};
-}
-Vec3 operator*(const Matrix& m, Vec3 v) { return m.x * v.x + m.y * v.y + m.z * v.z; }
-Vec3 transposed(const Matrix& m, Vec3 v) { return {dot(m.x, v), dot(m.y, v), dot(m.z, v)}; }
-
 /// What is known of a pair before it is read.
 struct Expected {
   uint32_t shapeA = kNone;
@@ -74,8 +63,7 @@ struct Expected {
   Coefficients coefficients{};
   uint32_t mean = 0;  ///< the next
   uint32_t feature = 0;
-  Matrix turnA, turnB;  ///< of the bodies
-  Vec3 apart;           ///< from A to B
+  BodiesApart bodies;
 
   /// The pair's shapes are known.
   void meet(const WorldData& data, const PairData& pair, bool sameA) {
@@ -85,13 +73,9 @@ struct Expected {
     ends[3] = data.shapeIds.id(pair.shapeB).generation;
     ends[5] = bodyB == kNone ? 0 : data.bodyIds.id(bodyB).generation;
   }
-  /// It has points.
+  /// It has points, or keeps a manifold.
   void touch(const WorldData& data) {
-    if (ends[0] == kNone || ends[1] == kNone) return;
-    const BodyData &a = data.bodies[ends[0]], &b = data.bodies[ends[1]];
-    if (!turnedA) turnA = matrixOf(a.rotation), turnedA = true;
-    turnB = matrixOf(b.rotation);
-    apart = toFloat(b.position - a.position);
+    if (ends[0] != kNone && ends[1] != kNone) bodies.place(data.bodies[ends[0]], data.bodies[ends[1]]);
   }
 
  private:
@@ -101,59 +85,9 @@ struct Expected {
     ends[2] = data.shapeIds.id(shape).generation;
     ends[4] = body == kNone ? 0 : data.bodyIds.id(body).generation;
     if (body != kNone) origin = data.bodies[body].position;
-    turnedA = false;
+    bodies.placedA = false;
   }
-  bool turnedA = false;
 };
-
-// Floats as integers in their order, so that near ones differ by little. Each undoes itself.
-int32_t ordered(float x) {
-  const int32_t bits = std::bit_cast<int32_t>(x);
-  return bits < 0 ? bits ^ 0x7fffffff : bits;
-}
-float unordered(int32_t n) { return std::bit_cast<float>(n < 0 ? n ^ 0x7fffffff : n); }
-uint32_t zigzag(uint32_t d) { return d << 1 ^ (d >> 31 ? 0xffffffffu : 0u); }
-uint32_t unzigzag(uint32_t z) { return z >> 1 ^ (z & 1 ? 0xffffffffu : 0u); }
-
-template <class T>
-void put(std::byte*& to, const T& value) {
-  static_assert(kIsLeaf<T>);
-  std::memcpy(to, &value, sizeof(T));
-  to += sizeof(T);
-}
-template <class T>
-void put(const std::byte*& from, T& value) {
-  static_assert(kIsLeaf<T> && !std::is_same_v<T, bool>);
-  std::memcpy(&value, from, sizeof(T));
-  from += sizeof(T);
-}
-
-/// A vector by what it differs from the expected one: 0, 2, 3 or 4 bytes a number. Returns which.
-uint32_t putNear(std::byte*& to, Vec3 now, Vec3 expected) {
-  const auto apart = [](float x, float y) {
-    return zigzag(static_cast<uint32_t>(ordered(x)) - static_cast<uint32_t>(ordered(y)));
-  };
-  const uint32_t d[] = {apart(now.x, expected.x), apart(now.y, expected.y), apart(now.z, expected.z)};
-  const uint32_t all = d[0] | d[1] | d[2];
-  if (all == 0) return 0;
-  const uint32_t way = all < 1u << 16 ? 1 : all < 1u << 24 ? 2 : 3;
-  for (const uint32_t n : d) {
-    std::memcpy(to, &n, sizeof(n));  // what is beyond the width is overwritten
-    to += way + 1;
-  }
-  return way;
-}
-void putNear(const std::byte*& from, Vec3& now, Vec3 expected, uint32_t way) {
-  const auto next = [&](float x) {
-    if (way == 0) return x;
-    uint32_t n = 0;
-    std::memcpy(&n, from, sizeof(n));
-    n &= 0xffffffffu >> (8 * (3 - way));
-    from += way + 1;
-    return unordered(static_cast<int32_t>(static_cast<uint32_t>(ordered(x)) + unzigzag(n)));
-  };
-  now.x = next(expected.x), now.y = next(expected.y), now.z = next(expected.z);
-}
 
 /// More than any pair takes.
 constexpr size_t kPairBytes = 768;
@@ -180,9 +114,9 @@ void writePoint(std::byte*& to, const PairData& pair, int i, Expected& expected)
   if (sticks != 1) bits |= kOtherSticks, put(to, sticks);
   put(to, place.separation);
   put(to, anchorA);
-  const Vec3 arm = expected.turnA * anchorA;
+  const Vec3 arm = expected.bodies.turnA * anchorA;
   bits |= putNear(to, place.position, arm) << kPlaceAt;
-  bits |= putNear(to, anchorB, transposed(expected.turnB, arm - expected.apart)) << kAnchorAt;
+  bits |= putNear(to, anchorB, transposed(expected.bodies.turnB, arm - expected.bodies.apart)) << kAnchorAt;
   const auto stored = static_cast<uint16_t>(bits);
   std::memcpy(head, &stored, sizeof(stored));
 }
@@ -208,9 +142,9 @@ void readPoint(const std::byte*& from, PairData& pair, int i, Expected& expected
   if (bits & kOtherSticks) put(from, point.sticks);
   put(from, place.separation);
   put(from, point.anchorA);
-  const Vec3 arm = expected.turnA * point.anchorA;
+  const Vec3 arm = expected.bodies.turnA * point.anchorA;
   putNear(from, place.position, arm, bits >> kPlaceAt & 3u);
-  putNear(from, point.anchorB, transposed(expected.turnB, arm - expected.apart), bits >> kAnchorAt & 3u);
+  putNear(from, point.anchorB, transposed(expected.bodies.turnB, arm - expected.bodies.apart), bits >> kAnchorAt & 3u);
 }
 
 // Bits of a pair's head.
@@ -267,39 +201,13 @@ void putOther(const std::byte*& from, uint32_t bits, uint32_t bit, T& now, const
     now = expected;
 }
 
-/// What follows of a kept manifold: of one that lies apart no points.
-template <class At, class Kept>
-void codeKept(At& at, Kept& kept) {
-  if (kept.what == KeptManifold::What::Nothing) return;
-  put(at, kept.offset), put(at, kept.turn), put(at, kept.clear), put(at, kept.reach);
-  if (kept.what == KeptManifold::What::Apart) return;
-  put(at, kept.normal);
-  for (auto* line : {&kept.x, &kept.y, &kept.z, &kept.height})
-    for (auto& number : *line) put(at, number);
-}
-
-void writeKept(std::byte*& to, const KeptManifold& kept) {
-  auto& [what, aroundBase, offset, turn, clear, reach, normal, x, y, z, height] = kept;
-  put(to, static_cast<uint8_t>(static_cast<uint8_t>(what) << 1 | aroundBase));
-  codeKept(to, kept);
-}
-
-void readKept(const std::byte*& from, KeptManifold& kept) {
-  uint8_t head = 0;
-  put(from, head);
-  require(head >> 1 <= static_cast<uint8_t>(KeptManifold::What::PointsOnB), "a manifold that is kept in no way");
-  kept = {};
-  kept.what = static_cast<KeptManifold::What>(head >> 1);
-  kept.aroundBase = head & 1;
-  codeKept(from, kept);
-}
-
 void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expected& expected) {
   // All members by name, so that a new one does not compile before it is written here and read below.
   auto& [shapeA, shapeB, bodyA, bodyB, generation, patch, material, element, hasSurface, isTrigger, triggerIsA, reports,
          wantsHits, hasHook, isFull, touching, wasTouching, touchBegins, origin, manifold, kept, normal, t1, t2, points,
          pointCount, staticFriction, friction, restitution, torsionalFriction, rollingFriction, turn, torque, slides,
          landedSliding, gonePoints, mean] = pair;
+  [[maybe_unused]] auto& [newNormal, newCount, newPoints, clear, carrier] = manifold;  // the last two are no state
   std::byte* const head = to;
   to += sizeof(uint32_t);
   uint32_t bits = static_cast<uint32_t>(pointCount) << kPointsAt | uint32_t(gonePoints) << kGoneAt |
@@ -327,9 +235,9 @@ void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expe
   if (mean != kNone) expected.mean = mean + 1;
   const int count = pointsOf(pair);
   if (count == 0) putOther(to, bits, kLastPoint, manifold.points[0].position, Vec3{});
-  if (count > 0) expected.touch(data);
+  if (count > 0 || kept.what != KeptManifold::What::Nothing) expected.touch(data);
   for (int i = 0; i < count; ++i) writePoint(to, pair, i, expected);
-  writeKept(to, kept);
+  writeKept(to, pair, data, expected.bodies);
   std::memcpy(head, &bits, sizeof(bits));
 }
 
@@ -347,6 +255,7 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
   pair.pointCount = static_cast<int32_t>(bits >> kPointsAt & 7u);
   pair.gonePoints = static_cast<uint8_t>(bits >> kGoneAt & 7u);
   pair.manifold.count = static_cast<int>(bits >> kManifoldAt & 7u);
+  pair.manifold.clear = 0, pair.manifold.carrier = Carrier::None;
   const int count = pointsOf(pair);
   require(count <= kMaxManifoldPoints, "a pair of too many points");
   putNew(from, bits, kShapeA, pair.shapeA, expected.shapeA);
@@ -379,7 +288,8 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
   if (count == 0) putOther(from, bits, kLastPoint, pair.manifold.points[0].position, Vec3{});
   if (count > 0) expected.touch(data);
   for (int i = 0; i < count; ++i) readPoint(from, pair, i, expected);
-  readKept(from, pair.kept);
+  if (count == 0 && keepsManifold(from)) expected.touch(data);
+  readKept(from, pair, data, expected.bodies);
 }
 
 }  // namespace
