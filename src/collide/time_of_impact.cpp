@@ -70,8 +70,8 @@ class MovingSide {
   }
   NearPose pose(double time) const { return at(motion_, static_cast<float>(time)); }
   Vec3d shift() const { return toDouble(motion_.shift); }
-  /// How far turning may take a point at most in all.
-  double turning() const { return std::min(rate_, 2.0) * across_; }
+  /// How far turning may take a point at most in a time.
+  double turning(double span) const { return std::min(rate_ * span, 2.0) * across_; }
 
   /// How much farther along n turning may take the shape, from this pose on.
   struct Swing {
@@ -145,12 +145,14 @@ Impact timeOfImpact(const ShapeGeom& a, const ShapeMotion& motionA, const ShapeG
                     const ImpactQuery& query) {
   const MovingSide sideA(a, motionA), sideB(b, motionB);
   const Vec3d shift = sideA.shift() - sideB.shift();
-  const double reach = length(shift) + sideA.turning() + sideB.turning(), tolerance = query.tolerance;
+  const double tolerance = query.tolerance;
   double time = query.from;
   Impact out;
   for (int step = 0; step < kMaxSteps; ++step) {
     const NearPose poseA = sideA.pose(time), poseB = sideB.pose(time);
-    const Separation near = separationOf(a, poseA, b, poseB, query.distance + reach * (query.to - time) + tolerance);
+    const double span = query.to - time;
+    const double reach = length(shift) * span + sideA.turning(span) + sideB.turning(span);
+    const Separation near = separationOf(a, poseA, b, poseB, query.distance + reach + tolerance);
     if (step == 0) out.before = static_cast<float>(near.distance);
     if (near.apart) return out;
     const double gap = near.distance - query.distance;

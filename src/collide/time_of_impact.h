@@ -42,11 +42,13 @@ Impact timeOfImpact(const ShapeGeom& a, const ShapeMotion& motionA, const ShapeG
 struct MovingTriangle {
   Vec3 v[3];           ///< relative to the first
   ShapeMotion motion;  ///< of a frame at the first corner, with the surface's axes
+  bool doubleSided;
   ShapeGeom geom() const { return {ShapeType::Triangle, 0, {}, v}; }
 };
-/// Calls f for the triangles of a surface that a convex shape may come as near to as asked for, and whose front its
-/// inner point sees at `from` (doubleSided: the front or the back). f returns up to what time to go on: the time given,
-/// or an earlier one.
+/// Whether a convex shape's inner point is then before the triangle's front (doubleSided: always).
+bool isInFront(const ShapeGeom& convex, const ShapeMotion& motion, const MovingTriangle& triangle, float time);
+/// Calls f for the triangles of a surface that a convex shape may come as near to as asked for, without those of which
+/// isInFront is false all the time. f returns up to what time to go on: the time given, or an earlier one.
 void forEachTriangleMet(const ShapeGeom& convex, const ShapeMotion& motion, const ShapeGeom& surface,
                         const ShapeMotion& surfaceMotion, const ImpactQuery& query,
                         FunctionRef<float(const MovingTriangle&, float to)> f);

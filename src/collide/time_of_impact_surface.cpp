@@ -53,12 +53,20 @@ bool staysAbove(const ShapeGeom& convex, const OnSurface& on, const SurfaceTrian
 MovingTriangle moving(const SurfaceTriangle& t, const ShapeMotion& surface) {
   MovingTriangle out;
   for (int i = 0; i < 3; ++i) out.v[i] = t.v[i] - t.v[0];
+  out.doubleSided = t.doubleSided;
   out.motion = surface;
   out.motion.start.p = surface.start * t.v[0];
   return out;
 }
 
 }  // namespace
+
+bool isInFront(const ShapeGeom& convex, const ShapeMotion& motion, const MovingTriangle& triangle, float time) {
+  if (triangle.doubleSided) return true;
+  const NearPose frame = at(triangle.motion, time);
+  const Vec3 inner = at(motion, time) * toFloat(innerPoint(convex));
+  return dot(rotate(frame.q, cross(triangle.v[1], triangle.v[2])), inner - frame.p) >= 0;
+}
 
 void forEachTriangleMet(const ShapeGeom& convex, const ShapeMotion& motion, const ShapeGeom& surface,
                         const ShapeMotion& surfaceMotion, const ImpactQuery& query,
@@ -67,7 +75,7 @@ void forEachTriangleMet(const ShapeGeom& convex, const ShapeMotion& motion, cons
   float to = query.to;
   const auto visit = [&](const SurfaceTriangle& t) {
     const float side = dot(t.normal, on.inner - t.v[0]);
-    if (side < 0 && !t.doubleSided) return;
+    if (on.isStraight && side < 0 && !t.doubleSided) return;
     if (on.isStraight && side >= 0 && staysAbove(convex, on, t, query)) return;
     to = std::min(to, f(moving(t, surfaceMotion), to));
   };

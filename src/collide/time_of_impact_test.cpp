@@ -142,7 +142,7 @@ TEST(TimeOfImpact, TrianglesAreMetFromTheFront) {
     forEachTriangleMet(a, ma, surface, mb, {0, kTolerance}, [&](const MovingTriangle& triangle, float to) {
       const ShapeGeom geom = triangle.geom();
       const Impact impact = timeOfImpact(a, ma, geom, triangle.motion, {0, kTolerance, 0, to});
-      if (impact.happens) first = std::min(first, impact.time);
+      if (impact.happens && isInFront(a, ma, triangle, impact.time)) first = std::min(first, impact.time);
       return std::min(to, first);
     });
     return first;

@@ -88,6 +88,7 @@ Impact onSurface(const ShapeGeom& a, const ShapeMotion& motionA, const ShapeGeom
                        const ShapeGeom geom = triangle.geom();
                        const Impact impact = Pair(a, motionA, geom, triangle.motion).counts(q, to, before);
                        if (!impact.happens || (first.happens && impact.time >= first.time)) return to;
+                       if (!isInFront(a, motionA, triangle, impact.time)) return to;
                        first = impact;
                        return impact.time;
                      });
