@@ -97,8 +97,8 @@ Model rain(const Settings& settings) {
   for (int n = 0; n < kSide * kSide * kLayers; ++n) {
     const int column = n % kSide, row = n / kSide % kSide, layer = n / (kSide * kSide);
     BodyDef def;
-    def.position = {1.2 * (column - (kSide - 1) / 2.0) + 0.1 * draws.next(), 8 + 1.2 * layer,
-                    1.2 * (row - (kSide - 1) / 2.0) + 0.1 * draws.next()};
+    def.position = {1.3 * (column - (kSide - 1) / 2.0) + 0.03 * draws.next(), 9 + 1.25 * layer,
+                    1.3 * (row - (kSide - 1) / 2.0) + 0.03 * draws.next()};
     def.rotation = turned({0, 1, 0}, 3 * draws.next()) * turned({1, 0, 0}, 3 * draws.next());
     def.shape = shapes[static_cast<size_t>(n + layer) % shapes.size()];
     build.add("drop", def);
