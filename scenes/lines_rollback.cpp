@@ -41,11 +41,12 @@ Figure rollback(const Scene& scene, const Settings& settings) {
   Run run(scene, settings);
   const bool large = run.model.bodies.size() > kLarge;
   const int further = large ? 4 : 20;
-  const std::vector<int> moments = large ? std::vector<int>{12} : std::vector<int>{0, 1, 40};
+  const std::vector<int> moments = large ? std::vector<int>{12} : std::vector<int>{0, 21, 60};
   std::vector<std::byte> snapshot;
   int different = 0;
-  for (const int moment : moments) {
-    while (run.made < moment) run.step();
+  for (const int earliest : moments) {
+    while (run.made < earliest) run.step();
+    const int moment = run.made;
     run.model.world.save(snapshot);
     const std::vector<uint64_t> first = run.hashes(further);
     Run second(scene, settings);
