@@ -46,16 +46,21 @@ void refit(WorldData& world, StepData& step, uint32_t slot, bool always) {
 
 void refitMoved(WorldData& world, StepData& step) {
   step.moved.clear();
-  for (const uint32_t slot : world.unpaired)
-    if (slot < world.shapes.size() && world.shapes[slot].proxy >= 0) refit(world, step, slot, true);
+  for (const uint32_t slot : world.unpaired) {
+    if (slot >= world.shapes.size() || world.shapes[slot].proxy < 0) continue;
+    // What sleeps looks for its pairs when it wakes.
+    const uint32_t body = world.shapes[slot].body;
+    if (!isDynamic(world, body) || isAwake(world, body)) refit(world, step, slot, true);
+  }
   world.unpaired.clear();
   for (const uint32_t slot : world.sleep.awake)
     for (uint32_t s = world.bodies[slot].firstShape; s != kNone; s = world.shapes[s].next) refit(world, step, s, false);
 }
 
-/// Nothing happens between two that rest.
-bool anyAwake(const WorldData& world, uint32_t shapeA, uint32_t shapeB) {
-  return isAwake(world, world.shapes[shapeA].body) || isAwake(world, world.shapes[shapeB].body);
+/// Nothing happens between two that rest, but that a trigger that was made or moved by hand sees what rests in it.
+bool mayMeet(const WorldData& world, uint32_t shapeA, uint32_t shapeB) {
+  const ShapeData &a = world.shapes[shapeA], &b = world.shapes[shapeB];
+  return isAwake(world, a.body) || isAwake(world, b.body) || a.isTrigger || b.isTrigger;
 }
 
 /// Keys that are not in the list.
@@ -63,7 +68,7 @@ void findNewKeys(WorldData& world, StepData& step) {
   step.newKeys.clear();
   for (const uint32_t slot : step.moved) {
     world.tree.query(world.tree.box(world.shapes[slot].proxy), [&](uint32_t other) {
-      if (anyAwake(world, slot, other) && mayTouch(world, slot, other)) step.newKeys.push_back(pairKey(slot, other));
+      if (mayMeet(world, slot, other) && mayTouch(world, slot, other)) step.newKeys.push_back(pairKey(slot, other));
     });
   }
   std::sort(step.newKeys.begin(), step.newKeys.end());

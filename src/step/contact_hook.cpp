@@ -110,8 +110,10 @@ void restorePairs(WorldData& world, StepData& step) {
   world.means.swap(step.meansBefore);
   world.lostTouches.resize(step.lostBefore);
   world.unpaired = step.unpairedBefore;
-  for (const uint32_t slot : world.sleep.awake)
+  for (const uint32_t slot : world.sleep.awake) {
+    if (world.bodies[slot].asleep) continue;  // again: the step had woken it
     for (uint32_t s = world.bodies[slot].firstShape; s != kNone; s = world.shapes[s].next) world.unpaired.push_back(s);
+  }
   std::sort(world.unpaired.begin(), world.unpaired.end());
   world.unpaired.erase(std::unique(world.unpaired.begin(), world.unpaired.end()), world.unpaired.end());
 }

@@ -161,6 +161,7 @@ const std::pair<const char*, Scene> kScenes[] = {
     {"terrain", addTerrain},   {"rolling", addRolling}, {"hooked", addHooked}};
 
 uint64_t hashAfter(const Scene& scene, WorldDef def, int steps) {
+  def.sleep = false;
   World world(def);
   const BodyId ground = addGround(world);
   scene(world, ground, {});

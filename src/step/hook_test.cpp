@@ -73,7 +73,7 @@ TEST(Hook, WhatItRefusesIsNoContact) {
   World world;
   addGround(world);
   const BodyId ghost = addHooked(world, BodyDef{.position = {0, 1, 0}}, Box{});
-  const BodyId solid = world.create(BodyDef{.position = {5, 0.5, 0}, .shape = Box{}});
+  const BodyId solid = world.create(BodyDef{.position = {5, 0.5, 0}, .shape = Box{}, .canSleep = false});
   world.setContactHook([](ContactPlan&) { return false; });
   for (int i = 0; i < 60; ++i) {
     world.step(kDt);

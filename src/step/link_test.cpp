@@ -114,7 +114,7 @@ TEST(Rack, ThePinionMovesTheRack) {
 
 TEST(Mimic, FollowsUnderLoad) {
   for (const float ratio : {-1.0f, 0.5f, 3.0f}) {
-    World world;
+    World world({.sleep = false});
     const JointId a = wheel(world, {0, 0, 0}, 0, {.stiffness = 500, .damping = 50, .position = 1});
     const JointId b = wheel(world, {0, 5, 0}, 0, {.force = 2});
     world.create(mimic(a, b, ratio, 0.2f));
@@ -336,7 +336,7 @@ TEST(Frames, MoveWhileRunningWithoutAJump) {
 }
 
 TEST(Enabled, AJointThatIsOffDoesNothingAndComesBack) {
-  World world;
+  World world({.sleep = false});
   const BodyId body = world.create(box({0, -1, 0}));
   const JointId joint = world.create(FixedJoint{.bodyB = body, .frameB = {{0, 1, 0}, {}}});
   world.setEnabled(joint, false);

@@ -75,7 +75,8 @@ TEST(Motion, DampingIsExponentialAtAnyStep) {
                                              .angularVelocity = {0, 0, 2},
                                              .shape = Sphere{},
                                              .linearDamping = rate,
-                                             .angularDamping = 2 * rate});
+                                             .angularDamping = 2 * rate,
+                                             .canSleep = false});
       run(world, static_cast<int>(std::lround(1 / dt)), dt);
       EXPECT_NEAR(world.velocity(id).linear.x / (3 * std::exp(-rate)), 1, 1e-4) << dt << " " << rate;
       EXPECT_NEAR(world.velocity(id).angular.z / (2 * std::exp(-2 * rate)), 1, 2e-4) << dt << " " << rate;

@@ -10,7 +10,7 @@ namespace {
 constexpr float kDt = 1.0f / 60;
 
 WorldDef sweep(int iterations, int width = 0) {
-  return {.iterations = iterations, .primalSolver = PrimalSolver::BlockSweep, .simdWidth = width};
+  return {.iterations = iterations, .primalSolver = PrimalSolver::BlockSweep, .sleep = false, .simdWidth = width};
 }
 
 void addGround(World& world) { world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}}); }

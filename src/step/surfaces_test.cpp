@@ -88,7 +88,7 @@ TEST_P(Order, ABallInACornerHasThreeContacts) {
   const std::vector<std::array<uint32_t, 3>> triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}};
   World world;
   fill(world, makeMesh({.vertices = vertices, .triangles = triangles}),
-       BodyDef{.position = {0, 1.2, 0}, .shape = Sphere{0.4f}});
+       BodyDef{.position = {0, 1.2, 0}, .shape = Sphere{0.4f}, .canSleep = false});
   for (int i = 0; i < 180; ++i) world.step(kDt);
   ASSERT_EQ(world.contacts().size(), 3u);
   for (const Contact& contact : world.contacts()) {

@@ -112,6 +112,8 @@ void wakeKinematic(WorldData& data, uint32_t slot) {
   if (!body.asleep || (body.linearVelocity == Vec3{} && body.angularVelocity == Vec3{})) return;
   body.asleep = false;
   data.sleep.newAwake.push_back(slot);
+  // Pairs with what rests beside it were not kept.
+  markBodyUnpaired(data, slot);
   wakeSupported(data, slot);
 }
 
@@ -268,23 +270,27 @@ void putToSleep(WorldData& data, uint32_t body) {
   if (data.bodies[body].asleep) return;
   updateAwake(data);
   dropForgottenPairs(data);
-  std::vector<uint32_t> parent(data.bodies.size());
+  const std::vector<uint32_t>& awake = data.sleep.awake;
+  std::vector<uint32_t> parent(awake.size());
   std::iota(parent.begin(), parent.end(), 0u);
-  const auto join = [&](uint32_t a, uint32_t b) { parent[rootOf(parent, a)] = rootOf(parent, b); };
+  const auto root = [&](uint32_t slot) {
+    return rootOf(parent, static_cast<uint32_t>(std::lower_bound(awake.begin(), awake.end(), slot) - awake.begin()));
+  };
   for (const PairData& pair : data.pairs)
-    if (pair.pointCount > 0 && isDynamic(data, pair.bodyA) && isDynamic(data, pair.bodyB)) join(pair.bodyA, pair.bodyB);
+    if (pair.pointCount > 0 && isDynamic(data, pair.bodyA) && isDynamic(data, pair.bodyB))
+      parent[root(pair.bodyA)] = root(pair.bodyB);
   for (const uint32_t joint : data.sleep.joints) {
     if (!acts(data, joint)) continue;
     uint32_t first = kNone;
     forEachBody(data, joint, [&](uint32_t other) {
       if (!isDynamic(data, other)) return;
-      if (first != kNone) join(first, other);
+      if (first != kNone) parent[root(first)] = root(other);
       first = other;
     });
   }
   std::vector<uint32_t> bodies;
-  for (const uint32_t slot : data.sleep.awake)
-    if (isDynamic(data, slot) && rootOf(parent, slot) == rootOf(parent, body)) bodies.push_back(slot);
+  for (const uint32_t slot : awake)
+    if (isDynamic(data, slot) && root(slot) == root(body)) bodies.push_back(slot);
   sleepTogether(data, bodies);
   storeAsleep(data, true);
 }
