@@ -46,7 +46,8 @@ Model pyramids(const Settings& settings) {
 std::vector<Figure> checkPyramid(const Evidence& e, int rows) {
   const double more = std::max(1.0, rows / 30.0);
   return {atMost("penetration_max", e.penetration.max, 0.006 * more, "m"),
-          atMost("horizontal", e.displacement.horizontal, 0.020 * more * more, "m"), holds("finite", e.finite)};
+          atMost("horizontal", e.displacement.horizontal, 0.020 * more * more * more, "m"),
+          holds("stands", e.top > rows - 1), holds("finite", e.finite)};
 }
 
 Scene pyramidScene(int rows) {
