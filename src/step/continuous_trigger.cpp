@@ -28,9 +28,10 @@ Way wayOf(const WorldData& world, const StepData& step, uint32_t body) {
   return {moved.state == MovedBody::State::Free ? moved.motion : moved.before, at(moved.motion, 1), moved.time};
 }
 
-bool apart(const ShapeGeom& a, const ShapeMotion& atA, const ShapeGeom& b, const ShapeMotion& atB) {
-  const Nearest near = nearest(a, atA.start, b, atB.start, 0);
-  return near.apart || near.distance > 0;
+/// By more than rounding: what just touches at the end is found by the next step's overlap.
+bool apart(const ShapeGeom& a, const ShapeMotion& atA, const ShapeGeom& b, const ShapeMotion& atB, float tolerance) {
+  const Nearest near = nearest(a, atA.start, b, atB.start, tolerance);
+  return near.apart || near.distance > tolerance;
 }
 
 bool passes(const WorldData& world, const StepData& step, uint32_t slotA, uint32_t slotB) {
@@ -43,7 +44,7 @@ bool passes(const WorldData& world, const StepData& step, uint32_t slotA, uint32
       timeOfImpact(a.geom, motionOf(wayA.motion, a, origin), b.geom, motionOf(wayB.motion, b, origin), query);
   return impact.happens && impact.before > query.tolerance &&
          apart(a.geom, motionOf(resting(wayA.end), a, wayA.end.position), b.geom,
-               motionOf(resting(wayB.end), b, wayA.end.position));
+               motionOf(resting(wayB.end), b, wayA.end.position), query.tolerance);
 }
 
 }  // namespace
