@@ -44,15 +44,15 @@ Figure rollback(const Scene& scene, const Settings& settings) {
   const std::vector<int> moments = large ? std::vector<int>{12} : std::vector<int>{0, 21, 60};
   std::vector<std::byte> snapshot;
   int different = 0;
-  for (const int earliest : moments) {
-    while (run.made < earliest) run.step();
-    const int moment = run.made;
+  for (const int moment : moments) {
+    while (run.made < moment) run.step();
+    const int64_t made = run.made;
     run.model.world.save(snapshot);
     const std::vector<uint64_t> first = run.hashes(further);
     Run second(scene, settings);
     for (Run* again : {&run, &second}) {
       again->model.world.restore(snapshot);
-      again->made = moment;
+      again->made = made;
       different += apart(first, again->hashes(further));
     }
   }
