@@ -285,13 +285,13 @@ TEST(Continuous, ManyBallsAtAPileGiveTheSameBitsForAnyWorkers) {
                                .linearVelocity = {80.0f + static_cast<float>(i % 7) * 15, 0, 0},
                                .shape = i % 2 ? Geometry(Sphere{0.06f}) : Geometry(Box{0.05f, 0.05f, 0.05f})}));
     for (int k = 0; k < 30; ++k) world.step(kDt);
-    // Two that others drive into the pile end beyond the wall; how is not known yet.
+    // Two are thrown aside and fly round the wall's ends; through it comes none.
     int beyond = 0;
     for (const BodyId ball : balls) {
-      beyond += world.pose(ball).position.x > 0;
+      beyond += world.pose(ball).position.x > 0 && std::abs(world.pose(ball).position.z) < 5;
       EXPECT_GT(world.pose(ball).position.y, 0);
     }
-    EXPECT_LE(beyond, 2);
+    EXPECT_EQ(beyond, 0);
     if (workers) EXPECT_EQ(world.hash(), hash);
     hash = world.hash();
   }
