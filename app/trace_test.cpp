@@ -20,7 +20,8 @@ struct Slices {
 
 Slices slicesOf(const std::string& text) {
   Slices found;
-  for (const Json& e : Json::parse(text)["traceEvents"]) {
+  const Json parsed = Json::parse(text);
+  for (const Json& e : parsed["traceEvents"]) {
     if (e["ph"] == "X") (e["cat"] == "step" ? found.steps : found.stages).push_back(e);
     if (e["ph"] == "C") found.counters[e["name"]].push_back(e["args"].begin().value());
   }
