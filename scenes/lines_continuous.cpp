@@ -49,7 +49,7 @@ Figure rodAtPost(const Settings& settings) {
     build.fixedBox("post", {0.02f, 1, 0.02f}, {0.9 * std::cos(angle), 0, -0.9 * std::sin(angle)});
     BodyDef def{.angularVelocity = {0, 60, 0}, .shape = Box{1, 0.03f, 0.03f}, .mass = 2};
     const BodyId rod = build.add("rod", def);
-    build.join(HingeJoint{}, {}, rod, {{}, along({0, 1, 0})});
+    build.join(BallJoint{}, {}, rod, {});
     Model model = build.take();
     double sum = 0;
     for (int k = 0; k < 30; ++k) {

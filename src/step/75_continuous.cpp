@@ -312,14 +312,25 @@ Pose unlockedPose(const BodyData& body, const MovedBody& moved, Pose pose) {
   return pose;
 }
 
-/// The pose where the body was left, and its velocity as it turns there with the angular momentum that it has.
+/// Whether a joint acts on a body.
+bool isHeld(const WorldData& world, uint32_t body) {
+  uint32_t next = kNone;
+  for (uint32_t j = world.bodies[body].firstJoint; j != kNone; j = next) {
+    if (acts(world, j)) return true;
+    next = world.joints[j].next[sideOf(world.joints[j], body)];
+  }
+  return false;
+}
+
+/// The pose where the body was left, and its velocity as it turns there with the angular momentum that it has; of one
+/// that joints hold, whose momentum is theirs to turn, with the velocity that they left it.
 void endThere(const WorldData& world, StepData& step, const MovedBody& moved) {
   const BodyData& body = world.bodies[moved.slot];
   const uint32_t index = step.endOf[moved.slot];
   StepData::EndState& end = step.end[index];
   Pose pose = at(moved.motion, 1);
   if (moved.state == State::Carried && body.locks != 0) pose = unlockedPose(body, moved, pose);
-  if ((body.locks >> 3) == 0) {
+  if ((body.locks >> 3) == 0 && !isHeld(world, moved.slot)) {
     const Vec3 momentum = turnedProduct(body.inertia, end.rotation, end.angularVelocity);
     end.angularVelocity = turnedProduct(body.invInertia, pose.rotation, momentum);
   }
