@@ -5,6 +5,8 @@
 #include <avbd/tasks.h>
 
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <memory>
 
 #include "base/function_ref.h"

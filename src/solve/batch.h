@@ -2,11 +2,14 @@
 //
 // Body rows. Each array of body rows holds 8 floats a body, (lin xyz, -, ang xyz, -) or as said. The rows of a batch
 // are its dynamic bodies, island by island, then one row a chunk for everything static, then kinematic bodies; rows are
-// padded to a multiple of 16. Pairs name their bodies by row within the batch. A large island is cut into chunks of
-// rows, so that several threads can solve it: the sums of a body are those of its chunk first, then those of the seams
-// in the order of their colours, whoever makes them. Each chunk has a static row. Tiles. Constants and multipliers of
-// 16 pairs are the transpose of their family's struct (lane/tile.h). Unused lanes name the static row on both sides and
-// have stiffness 0.
+// padded to a multiple of 16. Pairs name their bodies by row within the batch.
+//
+// Chunks. A large island is cut into chunks of rows, so that several threads can solve it: the sums of a body are those
+// of its chunk first, then those of the seams in the order of their colours, whoever makes them. Each chunk has its own
+// static row, since rows are added to.
+//
+// Tiles. Constants and multipliers of 16 pairs are the transpose of their family's struct (lane/tile.h). Unused lanes
+// name the static row on both sides and have stiffness 0.
 #pragma once
 
 #include <cstdint>

@@ -6,8 +6,6 @@
 
 namespace avbd {
 
-using rows::any, rows::select;
-
 /// A body at the start of a step. All that is 0 stands for a lane without a body.
 template <class R>
 struct FreeBody {
@@ -43,6 +41,7 @@ AVBD_INLINE rows::V3<R> turnedProduct(const rows::Sym3<R>& local, const rows::Q4
 
 template <class R>
 AVBD_INLINE rows::V3<R> bounded(const rows::V3<R>& v, const R& most) {
+  using rows::select;
   const R size = length(v);
   const auto fast = size > most;
   return v * select(fast, most / select(fast, size, rows::splat<R>(1)), rows::splat<R>(1));
@@ -51,7 +50,7 @@ AVBD_INLINE rows::V3<R> bounded(const rows::V3<R>& v, const R& most) {
 /// Explicit for the velocity; for the turn an angular-momentum-conserving midpoint: w = I(q_mid)^-1 L.
 template <class R>
 AVBD_INLINE FreeMotion<R> freeMotion(const FreeBody<R>& b, float h) {
-  using rows::V3;
+  using rows::V3, rows::any, rows::select;
   FreeMotion<R> free;
   const V3<R> v = (b.v + b.acceleration * h) * b.keepLinear;
   free.velocity = {v.x * b.freeX, v.y * b.freeY, v.z * b.freeZ};

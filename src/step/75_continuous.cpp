@@ -24,16 +24,12 @@ bool isAfter(const PlannedImpact& x, const PlannedImpact& y) { return isBefore(y
 /// Whether a joint ties a body to another that moves. Such a body is an obstacle to others, but goes its own way: to
 /// stop it would take from the solver what it moved to keep the joints, step after step, until they tear.
 bool isTied(const WorldData& world, uint32_t body) {
-  uint32_t next = kNone;
-  for (uint32_t j = world.bodies[body].firstJoint; j != kNone; j = next) {
-    const JointData& joint = world.joints[j];
-    next = joint.next[sideOf(joint, body)];
-    if (!acts(world, j)) continue;
+  return anyJoint(world, body, [&](uint32_t slot) {
+    if (!acts(world, slot)) return false;
     bool tied = false;
-    forEachBody(world, j, [&](uint32_t other) { tied = tied || (other != body && isDynamic(world, other)); });
-    if (tied) return true;
-  }
-  return false;
+    forEachBody(world, slot, [&](uint32_t other) { tied = tied || (other != body && isDynamic(world, other)); });
+    return tied;
+  });
 }
 
 class Search {
@@ -204,30 +200,19 @@ class Search {
   void meetEnd(uint32_t index, uint32_t by, float time, Vec3 normal) {
     const MovedBody& other = c_.bodies[by];
     if (other.state == State::Stopped || bodyOf(other).type == BodyType::Static) return stop(index, time);
-    listGroup(world_, c_.bodies[index].slot, c_.group);
-    if (std::binary_search(c_.group.begin(), c_.group.end(), other.slot)) return stop(index, time);
-    if (isHeld()) return;
-    const BodyMotion motion = other.motion;
-    const Vec3 turn = motion.turn * (1 - time);
-    for (const uint32_t slot : c_.group) {
-      MovedBody& moved = c_.bodies[indexOf(slot)];
-      if (moved.state != State::Free) continue;
-      change(slot, State::Carried, time, carried(at(moved.motion, time), motion, time, normal));
-      moved.turned = moved.turned + turn;
-    }
+    if (isPulled(index)) return;
+    MovedBody& moved = c_.bodies[index];
+    const Vec3 turn = other.motion.turn * (1 - time);
+    change(index, State::Carried, time, carried(at(moved.motion, time), other.motion, time, normal));
+    moved.turned = moved.turned + turn;
   }
 
   void stop(uint32_t index, float time) {
-    listGroup(world_, c_.bodies[index].slot, c_.group);
-    if (isHeld()) return;
-    for (const uint32_t slot : c_.group) {
-      const MovedBody& moved = c_.bodies[indexOf(slot)];
-      if (moved.state == State::Free) change(slot, State::Stopped, time, resting(at(moved.motion, time)));
-    }
+    if (isPulled(index)) return;
+    change(index, State::Stopped, time, resting(at(c_.bodies[index].motion, time)));
   }
 
-  void change(uint32_t slot, State state, float time, const BodyMotion& motion) {
-    const uint32_t index = indexOf(slot);
+  void change(uint32_t index, State state, float time, const BodyMotion& motion) {
     MovedBody& moved = c_.bodies[index];
     moved.state = state;
     moved.time = time;
@@ -237,22 +222,15 @@ class Search {
     c_.changed.push_back(index);
   }
 
-  /// Whether a joint ties the group to a kinematic body that goes on too fast to leave it.
-  bool isHeld() const {
-    for (const uint32_t slot : c_.group) {
-      uint32_t next = kNone;
-      for (uint32_t j = world_.bodies[slot].firstJoint; j != kNone; j = next) {
-        const JointData& joint = world_.joints[j];
-        next = joint.next[sideOf(joint, slot)];
-        bool held = false;
-        for (int k = 0; k < 4; ++k) {
-          const uint32_t known = joint.body[k] == kNone ? kNone : c_.indexOf[joint.body[k]];
-          held = held || (known != kNone && c_.bodies[known].isFast && !isDynamic(c_.bodies[known]));
-        }
-        if (held && joint.enabled) return true;
-      }
-    }
-    return false;
+  /// Whether a joint ties the body to a kinematic one that goes on too fast to leave it.
+  bool isPulled(uint32_t index) const {
+    return anyJoint(world_, c_.bodies[index].slot, [&](uint32_t slot) {
+      const JointData& joint = world_.joints[slot];
+      return joint.enabled && std::any_of(std::begin(joint.body), std::end(joint.body), [&](uint32_t body) {
+               const uint32_t known = body == kNone ? kNone : c_.indexOf[body];
+               return known != kNone && c_.bodies[known].isFast && !isDynamic(c_.bodies[known]);
+             });
+    });
   }
 
   /// The changed bodies go another way from now on.
@@ -300,26 +278,11 @@ void listFast(const WorldData& world, StepData& step) {
   for (MovedBody& moved : c.bodies) moved.motion = motionOf(world, step, moved.slot);
 }
 
-/// World-axes product of the body's inertia, or its inverse, at rotation q.
-Vec3 turnedProduct(const SymMat3& local, Quat q, Vec3 v) {
-  return rotate(q, fromRow(toRow(local) * toRow(rotate(conjugate(q), v))));
-}
-
 /// What carries a body does not move it along or about what is locked.
 Pose unlockedPose(const BodyData& body, const MovedBody& moved, Pose pose) {
   pose.position = body.position + unlocked(toFloat(pose.position - body.position), body.locks);
   if (body.locks >> 3) pose.rotation = at(moved.before, moved.time).rotation;
   return pose;
-}
-
-/// Whether a joint acts on a body.
-bool isHeld(const WorldData& world, uint32_t body) {
-  uint32_t next = kNone;
-  for (uint32_t j = world.bodies[body].firstJoint; j != kNone; j = next) {
-    if (acts(world, j)) return true;
-    next = world.joints[j].next[sideOf(world.joints[j], body)];
-  }
-  return false;
 }
 
 /// The pose where the body was left, and its velocity as it turns there with the angular momentum that it has; of one
@@ -330,9 +293,10 @@ void endThere(const WorldData& world, StepData& step, const MovedBody& moved) {
   StepData::EndState& end = step.end[index];
   Pose pose = at(moved.motion, 1);
   if (moved.state == State::Carried && body.locks != 0) pose = unlockedPose(body, moved, pose);
-  if ((body.locks >> 3) == 0 && !isHeld(world, moved.slot)) {
-    const Vec3 momentum = turnedProduct(body.inertia, end.rotation, end.angularVelocity);
-    end.angularVelocity = turnedProduct(body.invInertia, pose.rotation, momentum);
+  const bool held = anyJoint(world, moved.slot, [&](uint32_t slot) { return acts(world, slot); });
+  if ((body.locks >> 3) == 0 && !held) {
+    const auto momentum = turnedProduct(toRow(body.inertia), toRow(end.rotation), toRow(end.angularVelocity));
+    end.angularVelocity = fromRow(turnedProduct(toRow(body.invInertia), toRow(pose.rotation), momentum));
   }
   end.position = pose.position, end.rotation = pose.rotation;
   const Vec3 way = toFloat(end.position - body.position);

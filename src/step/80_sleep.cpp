@@ -19,7 +19,7 @@ bool isSlow(const WorldData& world, const BodyData& body, const StepData::EndSta
 
 bool moves(const WorldData& world, uint32_t body) {
   return body != kNone && world.bodies[body].type == BodyType::Kinematic && isAwake(world, body) &&
-         (world.bodies[body].linearVelocity != Vec3{} || world.bodies[body].angularVelocity != Vec3{});
+         hasVelocity(world.bodies[body]);
 }
 
 /// Something that moves by itself touches or holds the island.

@@ -78,7 +78,6 @@ struct ContinuousData {
   std::vector<Impact> answers;          ///< by meet, to what is asked first
   std::vector<PlannedImpact> queue;     ///< a heap
   std::vector<uint32_t> byX;            ///< fast bodies by where they begin along x
-  std::vector<uint32_t> group;          ///< body slots that stop together
   std::vector<uint32_t> changed;        ///< in `bodies`: by the last impact
   std::vector<uint64_t> visits;         ///< triggers and fast bodies that may pass through them: shape slots
   std::vector<TriggerEvent> crossings;  ///< triggers that were entered and left, of all substeps so far
@@ -88,8 +87,6 @@ inline constexpr float kFastWay = 0.5f;  ///< of a half thickness: who moves far
 
 /// The convex shape of two first; of two convex ones the lower slot.
 std::array<uint32_t, 2> inOrder(const WorldData& world, uint32_t shapeA, uint32_t shapeB);
-/// Slots of the body and of all that joints fix to it, directly or through others; of too many: the body alone.
-void listGroup(const WorldData& world, uint32_t body, std::vector<uint32_t>& group);
 /// When the two shapes meet so that the rest of their way would take them through each other.
 Impact impactOf(const WorldData& world, const StepData& step, const ShapesMeet& meet, float from);
 /// Triggers that a fast body passed through between the poses at which overlaps are looked for.

@@ -10,20 +10,19 @@ namespace avbd {
 
 namespace {
 
-constexpr size_t kLargestGroup = 64;  ///< bodies: what hangs together in larger ones gives way by itself
-
 /// The point of a body that a joint holds in the world or on what no force moves, in the body's axes; else its centre.
 Vec3 heldPoint(const WorldData& world, uint32_t body) {
-  uint32_t next = kNone;
-  for (uint32_t j = world.bodies[body].firstJoint; j != kNone; j = next) {
-    const JointData& joint = world.joints[j];
+  Vec3 point;
+  anyJoint(world, body, [&](uint32_t slot) {
+    const JointData& joint = world.joints[slot];
     const int side = sideOf(joint, body);
-    next = joint.next[side];
     const bool holds =
         joint.type == JointType::Ball || joint.type == JointType::Fixed || joint.type == JointType::Hinge;
-    if (holds && joint.enabled && !isDynamic(world, joint.body[1 - side])) return joint.anchor[side];
-  }
-  return {};
+    if (!holds || !joint.enabled || isDynamic(world, joint.body[1 - side])) return false;
+    point = joint.anchor[side];
+    return true;
+  });
+  return point;
 }
 
 float turningReach(Vec3 turn, float radius) { return std::min(length(turn), 2.0f) * radius; }
@@ -98,23 +97,6 @@ std::array<uint32_t, 2> inOrder(const WorldData& world, uint32_t shapeA, uint32_
   const bool convexA = isConvex(world.shapes[shapeA].geom.type), convexB = isConvex(world.shapes[shapeB].geom.type);
   if (!convexA || (convexB && shapeB < shapeA)) std::swap(shapeA, shapeB);
   return {shapeA, shapeB};
-}
-
-void listGroup(const WorldData& world, uint32_t body, std::vector<uint32_t>& group) {
-  group.assign(1, body);
-  const auto add = [&](uint32_t other) {
-    if (isDynamic(world, other) && std::find(group.begin(), group.end(), other) == group.end()) group.push_back(other);
-  };
-  for (size_t i = 0; i < group.size() && group.size() <= kLargestGroup; ++i) {
-    uint32_t next = kNone;
-    for (uint32_t j = world.bodies[group[i]].firstJoint; j != kNone; j = next) {
-      const JointData& joint = world.joints[j];
-      next = joint.next[sideOf(joint, group[i])];
-      if (acts(world, j)) forEachBody(world, j, add);
-    }
-  }
-  if (group.size() > kLargestGroup) group.resize(1);
-  std::sort(group.begin(), group.end());
 }
 
 }  // namespace avbd

@@ -109,7 +109,7 @@ bool stopKinematic(WorldData& world, const StepData& step) {
   bool any = false;
   for (const uint32_t slot : step.kinematic) {
     BodyData& body = world.bodies[slot];
-    body.asleep = body.linearVelocity == Vec3{} && body.angularVelocity == Vec3{};
+    body.asleep = !hasVelocity(body);
     any = any || body.asleep;
   }
   return any;

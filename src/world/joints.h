@@ -37,6 +37,9 @@ void forEachBody(const WorldData& data, uint32_t slot, F&& f) {
   }
   for (int i = 0; i < bodyCount(data, slot); ++i) f(joint.body[i]);
 }
+/// Whether f(joint slot) holds of any joint of a body.
+template <class F>
+bool anyJoint(const WorldData& data, uint32_t body, F&& f);
 /// Forgets the forces that were given along coordinates; the lists of what is awake must be up to date.
 void clearJointForces(WorldData& data);
 /// Enabled, and of a coupling all its joints too.
@@ -66,6 +69,15 @@ inline int sideOf(const JointData& joint, uint32_t body) {
   int side = 0;
   while (side < 3 && joint.body[side] != body) ++side;
   return side;
+}
+
+template <class F>
+bool anyJoint(const WorldData& data, uint32_t body, F&& f) {
+  for (uint32_t slot = data.bodies[body].firstJoint; slot != kNone;) {
+    if (f(slot)) return true;
+    slot = data.joints[slot].next[sideOf(data.joints[slot], body)];
+  }
+  return false;
 }
 
 }  // namespace avbd

@@ -69,8 +69,7 @@ void wakeSupported(WorldData& data, uint32_t body) {
 
 void enlist(WorldData& data, uint32_t slot) {
   BodyData& body = data.bodies[slot];
-  const bool moves = body.linearVelocity != Vec3{} || body.angularVelocity != Vec3{};
-  body.asleep = body.type == BodyType::Static || (body.type == BodyType::Kinematic && !moves);
+  body.asleep = body.type == BodyType::Static || (body.type == BodyType::Kinematic && !hasVelocity(body));
   if (!body.asleep) data.sleep.newAwake.push_back(slot);
 }
 
@@ -109,7 +108,7 @@ void wakeAll(WorldData& data) {
 
 void wakeKinematic(WorldData& data, uint32_t slot) {
   BodyData& body = data.bodies[slot];
-  if (!body.asleep || (body.linearVelocity == Vec3{} && body.angularVelocity == Vec3{})) return;
+  if (!body.asleep || !hasVelocity(body)) return;
   body.asleep = false;
   data.sleep.newAwake.push_back(slot);
   // Pairs with what rests beside it were not kept.

@@ -14,6 +14,10 @@ namespace avbd {
 /// A dynamic body that does not sleep, or a kinematic one that moves.
 inline bool isAwake(const WorldData& data, uint32_t body) { return !data.bodies[body].asleep; }
 
+inline bool hasVelocity(const BodyData& body) {
+  return body.linearVelocity != Vec3{} || body.angularVelocity != Vec3{};
+}
+
 /// A new body goes to where it belongs.
 void enlist(WorldData& data, uint32_t body);
 /// A dynamic body with all that sleeps with it, and begins to count its rest anew; of another, all that rests on it.

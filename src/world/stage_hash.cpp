@@ -1,5 +1,4 @@
 // Hashes of what each stage of a step leaves to the next one (state_hash.h).
-#include "base/hash.h"
 #include "world/joints.h"
 #include "world/pairs.h"
 #include "world/state_hash.h"
@@ -38,17 +37,11 @@ void addJoint(Hash64& hash, const WorldData& data, uint32_t slot) {
   const JointData& joint = data.joints[slot];
   hash.value(joint.lambda);
   if (isD6(joint.type)) {
-    for (const JointMultipliers& l : data.d6[slot].lambda) {
-      const float all[] = {l.lock, l.lower, l.upper, l.drive, l.friction, l.passive};
-      hash.value(all);
-    }
+    for (const JointMultipliers& l : data.d6[slot].lambda) addMultipliers(hash, l);
     hash.value(data.d6[slot].coneLambda);
     hash.value(data.d6[slot].slerpLambda);
   }
-  if (!isLink(joint.type)) return;
-  const JointMultipliers& l = data.links[slot].lambda;
-  const float all[] = {l.lock, l.lower, l.upper, l.drive, l.friction, l.passive};
-  hash.value(all);
+  if (isLink(joint.type)) addMultipliers(hash, data.links[slot].lambda);
 }
 
 uint64_t forcesHash(const WorldData& data) {

@@ -1,11 +1,16 @@
 // Field by field, so that no padding is hashed (state_hash.h).
 #include "world/state_hash.h"
 
-#include "base/hash.h"
 #include "world/joints.h"
 #include "world/pairs.h"
 
 namespace avbd {
+
+void addMultipliers(Hash64& hash, const JointMultipliers& l) {
+  const float all[] = {l.lock, l.lower, l.upper, l.drive, l.friction, l.passive};
+  hash.value(all);
+}
+
 namespace {
 
 void add(Hash64& hash, const BodyData& body) {
@@ -24,22 +29,17 @@ void addSleep(Hash64& hash, const WorldData& data, const BodyData& body) {
   hash.value(body.stillTime);
 }
 
-void add(Hash64& hash, const JointMultipliers& l) {
-  const float all[] = {l.lock, l.lower, l.upper, l.drive, l.friction, l.passive};
-  hash.value(all);
-}
-
 void add(Hash64& hash, const D6Data& d6) {
   hash.value(d6.twist);
   hash.value(static_cast<uint8_t>(d6.twistKnown));
-  for (const JointMultipliers& l : d6.lambda) add(hash, l);
+  for (const JointMultipliers& l : d6.lambda) addMultipliers(hash, l);
   hash.value(d6.force);
   hash.value(d6.coneLambda);
   hash.value(d6.slerpLambda);
 }
 
 void add(Hash64& hash, const LinkData& link) {
-  add(hash, link.lambda);
+  addMultipliers(hash, link.lambda);
   hash.value(link.force);
   for (const float x : link.memory) hash.value(x);
 }
