@@ -1,6 +1,7 @@
 // Pairs: shapes whose fat bounds overlap. Only shapes that left their fat bounds look for new partners.
 #include <algorithm>
 
+#include "base/insert_sorted.h"
 #include "step/step_data.h"
 #include "world/limits.h"
 #include "world/pairs.h"
@@ -97,19 +98,11 @@ void dropParted(WorldData& world, StepData& step) {
   for (const uint32_t slot : step.moved) step.isMoved[slot] = 0;
 }
 
-/// New pairs to their places, from the end, so that nothing is overwritten before it has moved; a run stays together.
+/// New pairs to their places; a run stays together.
 void addNew(WorldData& world, const StepData& step) {
-  std::vector<PairData>& pairs = world.pairs;
-  size_t from = pairs.size(), more = step.newKeys.size(), to = from + more;
-  pairs.resize(to);
-  while (more > 0) {
-    const bool takesOld = from > 0 && pairs[from - 1].key() > step.newKeys[more - 1];
-    --to;
-    if (takesOld)
-      pairs[to] = pairs[--from];
-    else
-      pairs[to] = newPair(world, step.newKeys[--more]);
-  }
+  insertSorted(
+      world.pairs, step.newKeys.size(), [&](const PairData& pair, size_t i) { return pair.key() > step.newKeys[i]; },
+      [&](size_t i) { return newPair(world, step.newKeys[i]); });
 }
 
 }  // namespace

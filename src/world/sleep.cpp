@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/insert_sorted.h"
 #include "world/joints.h"
 #include "world/pairs.h"
 
@@ -15,13 +16,8 @@ namespace {
 void mergeSlots(std::vector<uint32_t>& list, std::vector<uint32_t>& fresh) {
   if (fresh.empty()) return;
   std::sort(fresh.begin(), fresh.end());
-  // From the end, so that nothing is overwritten before it has moved.
-  size_t from = list.size(), more = fresh.size(), to = from + more;
-  list.resize(to);
-  while (more > 0) {
-    const bool takesOld = from > 0 && list[from - 1] > fresh[more - 1];
-    list[--to] = takesOld ? list[--from] : fresh[--more];
-  }
+  insertSorted(
+      list, fresh.size(), [&](uint32_t slot, size_t i) { return slot > fresh[i]; }, [&](size_t i) { return fresh[i]; });
   list.erase(std::unique(list.begin(), list.end()), list.end());
   fresh.clear();
 }
@@ -142,13 +138,9 @@ void returnPairs(WorldData& data) {
     std::sort(back.begin(), back.end(), [](const PairData& x, const PairData& y) {
       return std::make_tuple(x.key(), x.patch) < std::make_tuple(y.key(), y.patch);
     });
-  std::vector<PairData>& pairs = data.pairs;
-  size_t from = pairs.size(), more = back.size(), to = from + more;
-  pairs.resize(to);
-  while (more > 0) {
-    const bool takesOld = from > 0 && pairs[from - 1].key() > back[more - 1].key();
-    pairs[--to] = takesOld ? pairs[--from] : back[--more];
-  }
+  insertSorted(
+      data.pairs, back.size(), [&](const PairData& pair, size_t i) { return pair.key() > back[i].key(); },
+      [&](size_t i) { return back[i]; });
 }
 
 void unpairWoken(WorldData& data) {
