@@ -14,8 +14,10 @@ std::vector<Contact> World::contacts() const {
 void World::getContacts(std::vector<Contact>& out) const {
   const WorldData& data = impl_->data;
   out.clear();
+  const PairData* head = nullptr;
   forEachPair(data, [&](const PairData& pair) {
-    if (contactPoints(pair) > 0) out.push_back(contactOf(data, pair));
+    if (pair.patch == 0) head = &pair;
+    if (contactPoints(pair) > 0) out.push_back(contactOf(data, pair, *head));
   });
 }
 

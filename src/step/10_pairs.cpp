@@ -1,7 +1,6 @@
 // Pairs: shapes whose fat bounds overlap. Only shapes that left their fat bounds look for new partners.
 #include <algorithm>
 
-#include "base/insert_sorted.h"
 #include "step/step_data.h"
 #include "world/limits.h"
 #include "world/pairs.h"
@@ -36,13 +35,37 @@ Aabb sweptBounds(const BodyData& body, const ShapeData& shape, float h, float ma
   return box;
 }
 
-void refit(WorldData& world, StepData& step, uint32_t slot, bool always) {
-  ShapeData& shape = world.shapes[slot];
-  const float unit = world.def.lengthUnit;
-  const BodyData& body = world.bodies[shape.body];
-  if (!always && contains(world.tree.box(shape.proxy), sweptBounds(body, shape, step.h, kSpeculative * unit))) return;
-  world.tree.move(shape.proxy, sweptBounds(body, shape, 2 * step.h, (kSpeculative + kFatMargin) * unit));
+/// Whether it may leave its fat bounds in this step.
+bool leaves(const WorldData& world, const StepData& step, const BodyData& body, uint32_t slot) {
+  const ShapeData& shape = world.shapes[slot];
+  const float margin = kSpeculative * world.def.lengthUnit;
+  return !contains(world.tree.box(shape.proxy), sweptBounds(body, shape, step.h, margin));
+}
+
+void refit(WorldData& world, StepData& step, uint32_t slot) {
+  const ShapeData& shape = world.shapes[slot];
+  const float margin = (kSpeculative + kFatMargin) * world.def.lengthUnit;
+  world.tree.move(shape.proxy, sweptBounds(world.bodies[shape.body], shape, 2 * step.h, margin));
   step.moved.push_back(slot);
+}
+
+/// Shapes of bodies that are awake and leave their bounds, in the order of the bodies.
+void refitAwake(WorldData& world, StepData& step) {
+  const std::vector<uint32_t>& awake = world.sleep.awake;
+  const auto shapesOf = [&](uint32_t i, auto&& f) {
+    const BodyData& body = world.bodies[awake[i]];
+    for (uint32_t s = body.firstShape; s != kNone; s = world.shapes[s].next)
+      if (leaves(world, step, body, s)) f(s);
+  };
+  step.leaving.resize(awake.size());
+  step.jobs->forRange(static_cast<uint32_t>(awake.size()), 64, [&](uint32_t begin, uint32_t end, int) {
+    for (uint32_t i = begin; i < end; ++i) {
+      step.leaving[i] = 0;
+      shapesOf(i, [&](uint32_t) { step.leaving[i] = 1; });
+    }
+  });
+  for (uint32_t i = 0; i < awake.size(); ++i)
+    if (step.leaving[i]) shapesOf(i, [&](uint32_t slot) { refit(world, step, slot); });
 }
 
 void refitMoved(WorldData& world, StepData& step) {
@@ -51,11 +74,10 @@ void refitMoved(WorldData& world, StepData& step) {
     if (slot >= world.shapes.size() || world.shapes[slot].proxy < 0) continue;
     // What sleeps looks for its pairs when it wakes.
     const uint32_t body = world.shapes[slot].body;
-    if (!isDynamic(world, body) || isAwake(world, body)) refit(world, step, slot, true);
+    if (!isDynamic(world, body) || isAwake(world, body)) refit(world, step, slot);
   }
   world.unpaired.clear();
-  for (const uint32_t slot : world.sleep.awake)
-    for (uint32_t s = world.bodies[slot].firstShape; s != kNone; s = world.shapes[s].next) refit(world, step, s, false);
+  refitAwake(world, step);
 }
 
 /// Nothing happens between two that rest, but that a trigger that was made or moved by hand sees what rests in it.
@@ -64,45 +86,53 @@ bool mayMeet(const WorldData& world, uint32_t shapeA, uint32_t shapeB) {
   return isAwake(world, a.body) || isAwake(world, b.body) || a.isTrigger || b.isTrigger;
 }
 
-/// Keys that are not in the list.
-void findNewKeys(WorldData& world, StepData& step) {
-  step.newKeys.clear();
-  for (const uint32_t slot : step.moved) {
-    world.tree.query(world.tree.box(world.shapes[slot].proxy), [&](uint32_t other) {
-      if (mayMeet(world, slot, other) && mayTouch(world, slot, other)) step.newKeys.push_back(pairKey(slot, other));
-    });
-  }
-  std::sort(step.newKeys.begin(), step.newKeys.end());
-  step.newKeys.erase(std::unique(step.newKeys.begin(), step.newKeys.end()), step.newKeys.end());
-  std::erase_if(step.newKeys, [&](uint64_t key) { return findPair(world, key) != nullptr; });
+constexpr uint32_t kGrain = 32;  ///< shapes that one thread asks the tree about at a time
+
+/// Keys of a moved shape's pairs that are not in the list.
+void findKeys(const WorldData& world, uint32_t slot, std::vector<uint64_t>& keys) {
+  world.tree.query(world.tree.box(world.shapes[slot].proxy), [&](uint32_t other) {
+    const uint64_t key = pairKey(slot, other);
+    if (findPair(world, key) < world.pairs.size()) return;
+    if (mayMeet(world, slot, other) && mayTouch(world, slot, other)) keys.push_back(key);
+  });
 }
 
-/// Drops the pairs that do not overlap any more. Most steps lose none, so that nothing is copied.
+void findNewKeys(WorldData& world, StepData& step) {
+  const auto count = static_cast<uint32_t>(step.moved.size());
+  step.keysOf.resize(std::max<size_t>(step.keysOf.size(), (count + kGrain - 1) / kGrain));
+  for (std::vector<uint64_t>& keys : step.keysOf) keys.clear();
+  step.jobs->forRange(count, kGrain, [&](uint32_t begin, uint32_t end, int) {
+    for (uint32_t i = begin; i < end; ++i) findKeys(world, step.moved[i], step.keysOf[begin / kGrain]);
+  });
+  step.newKeys.clear();
+  for (const std::vector<uint64_t>& keys : step.keysOf)
+    step.newKeys.insert(step.newKeys.end(), keys.begin(), keys.end());
+  std::sort(step.newKeys.begin(), step.newKeys.end());
+  step.newKeys.erase(std::unique(step.newKeys.begin(), step.newKeys.end()), step.newKeys.end());
+}
+
+/// Drops the pairs that do not overlap any more.
 void dropParted(WorldData& world, StepData& step) {
   step.isMoved.resize(world.shapes.size());
   for (const uint32_t slot : step.moved) step.isMoved[slot] = 1;
-  const auto parted = [&](const PairData& pair) {
-    if (!step.isMoved[pair.shapeA] && !step.isMoved[pair.shapeB]) return false;
-    return !overlaps(world.tree.box(world.shapes[pair.shapeA].proxy), world.tree.box(world.shapes[pair.shapeB].proxy));
-  };
-  size_t size = 0;
-  for (size_t i = 0; i < world.pairs.size(); ++i) {
-    if (parted(world.pairs[i])) {
-      loseTouch(world, world.pairs[i], step.substep > 0);
-      continue;
+  const auto boundsOf = [&](uint32_t shape) -> const Aabb& { return world.tree.box(world.shapes[shape].proxy); };
+  step.parted.resize(world.pairs.size());
+  step.jobs->forRange(static_cast<uint32_t>(world.pairs.size()), 1024, [&](uint32_t begin, uint32_t end, int) {
+    for (uint32_t i = begin; i < end; ++i) {
+      const uint32_t a = world.pairs.shapeA(i), b = world.pairs.shapeB(i);
+      step.parted[i] = (step.isMoved[a] || step.isMoved[b]) && !overlaps(boundsOf(a), boundsOf(b));
     }
-    if (size != i) world.pairs[size] = world.pairs[i];
-    ++size;
-  }
-  world.pairs.resize(size);
+  });
+  world.pairs.eraseIf([&](size_t i) {
+    if (step.parted[i]) loseTouch(world, i, step.substep > 0);
+    return step.parted[i] != 0;
+  });
   for (const uint32_t slot : step.moved) step.isMoved[slot] = 0;
 }
 
 /// New pairs to their places; a run stays together.
 void addNew(WorldData& world, const StepData& step) {
-  insertSorted(
-      world.pairs, step.newKeys.size(), [&](const PairData& pair, size_t i) { return pair.key() > step.newKeys[i]; },
-      [&](size_t i) { return newPair(world, step.newKeys[i]); });
+  world.pairs.insert(step.newKeys, [&](PairData& pair, uint64_t key) { beginPair(world, pair, key); });
 }
 
 }  // namespace

@@ -49,68 +49,103 @@ void findManifold(WorldData& world, const StepData& step, PairData& pair) {
   if (begins) beginSlide(world, step, pair, {});
 }
 
-size_t endOfRun(const WorldData& world, size_t begin) {
-  size_t end = begin + 1;
-  while (end < world.pairs.size() && world.pairs[end].key() == world.pairs[begin].key()) ++end;
-  return end;
+/// Of convex pairs. Between substeps forces are summed up in a list of the world's; before, a manifold touches nothing
+/// but its pair.
+void findManifolds(WorldData& world, StepData& step) {
+  const auto find = [&](uint32_t begin, uint32_t end, int) {
+    for (uint32_t i = begin; i < end; ++i) {
+      if (i + kPairsAhead < world.pairs.size()) world.pairs.prefetch(i + kPairsAhead);
+      if (!world.pairs.isConvex(i)) continue;
+      PairData& pair = world.pairs[i];
+      if (step.substep == 0) pair.touching = pair.touchBegins = false;
+      findManifold(world, step, pair);
+      step.found[i] = foundContact(pair);
+      world.pairs.setTouches(i, pair.pointCount > 0);
+    }
+  };
+  const auto count = static_cast<uint32_t>(world.pairs.size());
+  step.found.resize(count);
+  if (step.substep == 0)
+    step.jobs->forRange(count, 64, find);
+  else
+    find(0, count, 0);
 }
 
-bool anyPoints(const PairData& head, size_t entries) {
-  for (size_t i = 0; i < entries; ++i)
-    if ((&head)[i].pointCount > 0) return true;
-  return false;
+void count(StepReport& report, int points) {
+  report.contacts += points > 0;
+  report.points += static_cast<uint32_t>(points);
 }
 
-void count(StepReport& report, const PairData* pairs, size_t size) {
-  for (size_t i = 0; i < size; ++i) {
-    report.contacts += pairs[i].pointCount > 0;
-    report.points += static_cast<uint32_t>(pairs[i].pointCount);
+/// Of the pair whose run begins at i, a trigger's or a surface's.
+void findOther(WorldData& world, StepData& step, size_t i) {
+  PairData& pair = world.pairs[i];
+  if (step.substep == 0) pair.touching = pair.touchBegins = false;
+  if (pair.isTrigger) {
+    pair.touching = pair.touching || overlaps(world, step, pair);
+    if (pair.touching != pair.wasTouching) step.touchChanges.push_back(pair.key());
+    step.found[i] = foundContact(pair);
+    return;
+  }
+  const size_t end = world.pairs.endOfRun(i);
+  findPatches(world, step, i, end);
+  bool anyPoints = false;
+  for (size_t k = i; k < end; ++k) {
+    step.found[k] = foundContact(world.pairs[k]);
+    anyPoints = anyPoints || step.found[k].points > 0;
+  }
+  if (pair.wasTouching && !anyPoints) step.touchChanges.push_back(pair.key());
+}
+
+/// What is left of the pairs begin .. end - 1 once the convex ones have their manifolds.
+void findRest(WorldData& world, StepData& step, size_t begin, size_t end) {
+  for (size_t i = begin; i < end;) {
+    const size_t next = world.pairs.isConvex(i) ? i + 1 : world.pairs.endOfRun(i);
+    if (!world.pairs.isConvex(i))
+      findOther(world, step, i);
+    else if (step.found[i].ends)
+      step.touchChanges.push_back(world.pairs.key(i));
+    for (; i < next; ++i) count(world.report, step.found[i].points);
   }
 }
 
-bool isConvexPair(const PairData& pair) { return !pair.isTrigger && !pair.hasSurface; }
-
-/// Manifolds that touch nothing but their pair. Between substeps forces are summed up in a list of the world's.
-void findManifolds(WorldData& world, StepData& step) {
-  if (step.substep > 0) return;
-  step.jobs->forRange(static_cast<uint32_t>(world.pairs.size()), 64, [&](uint32_t begin, uint32_t end, int) {
-    for (uint32_t i = begin; i < end; ++i)
-      if (isConvexPair(world.pairs[i])) findManifold(world, step, world.pairs[i]);
-  });
+/// Patches for which there was no place in their runs.
+void addOverflow(WorldData& world, StepData& step) {
+  if (step.overflow.empty()) return;
+  for (const PairData& pair : step.overflow) count(world.report, pair.pointCount);
+  lengthenRuns(world, step);
+  step.overflow.clear();
+  noteAll(world, step);
 }
 
-/// Of the pair whose run begins at i; returns its end. `isAlone`: no other has looked for its manifold in this substep.
-size_t findContactsOf(WorldData& world, StepData& step, size_t i, bool isAlone) {
-  PairData& pair = world.pairs[i];
-  size_t end = i + 1;
-  if (step.substep == 0) pair.touching = pair.touchBegins = false;
-  if (pair.isTrigger)
-    pair.touching = pair.touching || overlaps(world, step, pair);
-  else if (pair.hasSurface)
-    findPatches(world, step, i, end = endOfRun(world, i));
-  else if (step.substep > 0 || isAlone)
-    findManifold(world, step, pair);
-  if (pair.isTrigger ? pair.touching != pair.wasTouching : pair.wasTouching && !anyPoints(pair, end - i))
-    step.touchChanges.push_back(pair.key());
-  count(world.report, &pair, end - i);
-  return end;
+/// Contacts of pairs that have just woken.
+void findWoken(WorldData& world, StepData& step) {
+  for (const uint32_t i : step.wokenPairs) {
+    if (world.pairs.isConvex(i)) {
+      findManifold(world, step, world.pairs[i]);
+      step.found[i] = foundContact(world.pairs[i]);
+    }
+    findRest(world, step, i, i + 1);
+  }
 }
 
 }  // namespace
+
+void noteAll(const WorldData& world, StepData& step) {
+  step.found.resize(world.pairs.size());
+  for (size_t i = 0; i < step.found.size(); ++i) step.found[i] = foundContact(world.pairs[i]);
+}
 
 void findContacts(WorldData& world, StepData& step) {
   step.overflow.clear();
   step.changes.clear();
   world.report.contacts = world.report.points = 0;
   findManifolds(world, step);
-  for (size_t i = 0; i < world.pairs.size();) i = findContactsOf(world, step, i, false);
-  count(world.report, step.overflow.data(), step.overflow.size());
-  if (!step.overflow.empty()) lengthenRuns(world, step);
+  findRest(world, step, 0, world.pairs.size());
+  addOverflow(world, step);
   if (wakeTouched(world, step)) {
-    step.overflow.clear();
-    for (const uint32_t pair : step.wokenPairs) findContactsOf(world, step, pair, true);
-    count(world.report, step.overflow.data(), step.overflow.size());
-    if (!step.overflow.empty()) lengthenRuns(world, step);
+    noteAll(world, step);
+    findWoken(world, step);
+    addOverflow(world, step);
   }
   if (world.contactHook) askHook(world, step);
 }

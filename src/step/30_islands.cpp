@@ -24,9 +24,9 @@ void join(std::vector<uint32_t>& parent, uint32_t a, uint32_t b) {
 void joinBodies(const WorldData& world, StepData& step) {
   step.parent.resize(world.bodies.size());
   for (const uint32_t slot : world.sleep.awake) step.parent[slot] = slot;
-  for (const PairData& pair : world.pairs)
-    if (pair.pointCount > 0 && isDynamic(world, pair.bodyA) && isDynamic(world, pair.bodyB))
-      join(step.parent, pair.bodyA, pair.bodyB);
+  for (const FoundContact& found : step.found)
+    if (found.points > 0 && isDynamic(world, found.bodyA) && isDynamic(world, found.bodyB))
+      join(step.parent, found.bodyA, found.bodyB);
   for (const uint32_t slot : world.sleep.joints) {
     if (!acts(world, slot)) continue;
     uint32_t first = kNone;
@@ -87,19 +87,19 @@ uint32_t islandOfJoint(const WorldData& world, const StepData& step, uint32_t sl
 }
 
 void listPairs(const WorldData& world, StepData& step) {
-  for (const PairData& pair : world.pairs) {
-    if (pair.pointCount == 0) continue;
-    Island& island = step.islands[islandOfPair(step, pair)];
+  for (const FoundContact& found : step.found) {
+    if (found.points == 0) continue;
+    Island& island = step.islands[islandOfPair(step, found)];
     ++island.pairCount;
-    if (!isDynamic(world, pair.bodyA) || !isDynamic(world, pair.bodyB)) island.floating = false;
+    if (!isDynamic(world, found.bodyA) || !isDynamic(world, found.bodyB)) island.floating = false;
   }
   // Where a contact gives one body more than it takes from the other, momentum is not kept.
   for (const ContactChange& change : step.changes)
-    if (change.scaleA != change.scaleB) step.islands[islandOfPair(step, world.pairs[change.pair])].floating = false;
+    if (change.scaleA != change.scaleB) step.islands[islandOfPair(step, step.found[change.pair])].floating = false;
   step.islandPairs.resize(layOut(step.islands, &Island::pairBegin, &Island::pairCount));
-  for (uint32_t i = 0; i < world.pairs.size(); ++i) {
-    if (world.pairs[i].pointCount == 0) continue;
-    Island& island = step.islands[islandOfPair(step, world.pairs[i])];
+  for (uint32_t i = 0; i < step.found.size(); ++i) {
+    if (step.found[i].points == 0) continue;
+    Island& island = step.islands[islandOfPair(step, step.found[i])];
     step.islandPairs[island.pairBegin + island.pairCount++] = i;
   }
 }

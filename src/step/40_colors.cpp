@@ -21,7 +21,7 @@ void link(const WorldData& world, Coloring& c, const uint32_t* body, int count) 
 void findLinks(const WorldData& world, const StepData& step, Coloring& c) {
   c.links.clear();
   for (const uint32_t index : step.islandPairs) {
-    const uint32_t body[2] = {world.pairs[index].bodyA, world.pairs[index].bodyB};
+    const uint32_t body[2] = {step.found[index].bodyA, step.found[index].bodyB};
     link(world, c, body, 2);
   }
   for (const uint32_t slot : step.islandJoints) {

@@ -35,9 +35,11 @@ void sumContact(const WorldData& world, StepData& step, uint32_t index, uint32_t
 
 void sumLanes(const WorldData& world, StepData& step, const BatchRange& batch, const std::vector<uint32_t>& pairs,
               const std::vector<uint32_t> (&rows)[2], Slice tiles) {
-  for (size_t lane = size_t(kTile) * tiles.begin; lane < size_t(kTile) * tiles.end; ++lane)
+  for (size_t lane = size_t(kTile) * tiles.begin; lane < size_t(kTile) * tiles.end; ++lane) {
+    prefetchAhead(world, pairs, lane);
     if (pairs[lane] != kNone)
       sumContact(world, step, pairs[lane], batch.rowBegin + rows[0][lane], batch.rowBegin + rows[1][lane]);
+  }
 }
 
 void sumJoints(const WorldData& world, StepData& step, const BatchRange& batch) {

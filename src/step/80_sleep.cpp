@@ -25,7 +25,7 @@ bool moves(const WorldData& world, uint32_t body) {
 /// Something that moves by itself touches or holds the island.
 bool isCarried(const WorldData& world, const StepData& step, const Island& island) {
   for (uint32_t i = 0; i < island.pairCount; ++i) {
-    const PairData& pair = world.pairs[step.islandPairs[island.pairBegin + i]];
+    const FoundContact& pair = step.found[step.islandPairs[island.pairBegin + i]];
     if (moves(world, pair.bodyA) || moves(world, pair.bodyB)) return true;
   }
   bool carried = false;

@@ -138,6 +138,7 @@ void publishContacts(WorldData& world, StepData& step) {
   step.loud.resize(step.contactPair.size());
   step.jobs->forRange(static_cast<uint32_t>(step.loud.size()), 1024, [&](uint32_t begin, uint32_t end, int) {
     for (size_t lane = begin; lane < end; ++lane) {
+      prefetchAhead(world, step.contactPair, lane);
       const uint32_t pair = step.contactPair[lane];
       step.loud[lane] = pair != kNone && !publishQuietly(world, pair, forcesOfLane(step, lane));
     }

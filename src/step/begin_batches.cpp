@@ -48,10 +48,10 @@ void addFull(const WorldData& world, StepData& step, BatchRange& batch) {
     const Island& island = step.islands[batch.islandBegin + n];
     for (uint32_t i = 0; i < island.pairCount; ++i) {
       const uint32_t pair = step.islandPairs[island.pairBegin + i];
-      if (!world.pairs[pair].isFull) continue;
+      if (!step.found[pair].isFull) continue;
       step.fullPair.push_back(pair);
-      step.fullRow[0].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyA));
-      step.fullRow[1].push_back(rowInBatch(world, step, batch, world.pairs[pair].bodyB));
+      step.fullRow[0].push_back(rowInBatch(world, step, batch, step.found[pair].bodyA));
+      step.fullRow[1].push_back(rowInBatch(world, step, batch, step.found[pair].bodyB));
     }
   }
   padLanes(step.fullPair, kNone);

@@ -20,7 +20,7 @@ uint32_t chunkOf(const BatchRange& batch, uint32_t row) {
   return std::min(row / chunkRows(batch), batch.chunkCount - 1);
 }
 
-bool isKinematic(const WorldData& world, const PairData& pair) {
+bool isKinematic(const WorldData& world, const FoundContact& pair) {
   return world.bodies[pair.bodyA].type == BodyType::Kinematic || world.bodies[pair.bodyB].type == BodyType::Kinematic;
 }
 
@@ -37,7 +37,7 @@ uint32_t seamBetween(ChunkScratch& scratch, uint32_t chunks, uint32_t a, uint32_
 
 /// Where static things are concerned a chunk has its own row for them.
 void placePair(const WorldData& world, StepData& step, BatchRange& batch, uint32_t index) {
-  const PairData& pair = world.pairs[index];
+  const FoundContact& pair = step.found[index];
   ChunkScratch& scratch = step.chunking;
   PlacedPair placed{index, rowInBatch(world, step, batch, pair.bodyA), rowInBatch(world, step, batch, pair.bodyB)};
   const uint32_t chunks = batch.chunkCount;
@@ -144,7 +144,7 @@ void addContacts(const WorldData& world, StepData& step, BatchRange& batch) {
     const Island& island = step.islands[batch.islandBegin + n];
     for (uint32_t i = 0; i < island.pairCount; ++i) {
       const uint32_t pair = step.islandPairs[island.pairBegin + i];
-      if (!world.pairs[pair].isFull) placePair(world, step, batch, pair);
+      if (!step.found[pair].isFull) placePair(world, step, batch, pair);
     }
   }
   sortSeams(scratch, chunks);

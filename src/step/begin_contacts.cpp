@@ -111,7 +111,9 @@ void fillContacts(WorldData& world, StepData& step, const WorkUnit& unit) {
   const float leak = leakOf(step, batch);
   for (size_t tile = batch.contactTile + unit.tiles.begin; tile < batch.contactTile + unit.tiles.end; ++tile)
     for (int lane = 0; lane < kTile; ++lane) {
-      const uint32_t pair = step.contactPair[kTile * tile + static_cast<size_t>(lane)];
+      const size_t at = kTile * tile + static_cast<size_t>(lane);
+      const uint32_t pair = step.contactPair[at];
+      prefetchAhead(world, step.contactPair, at);
       rows::Contact<float> c{};
       if (pair != kNone) c = changedRows(world, step, pair, leak);
       step.contacts[tile].set(lane, c);

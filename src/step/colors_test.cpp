@@ -25,8 +25,10 @@ struct Graph {
   }
   void addPair(uint32_t a, uint32_t b) {
     step.islandPairs.push_back(static_cast<uint32_t>(world.pairs.size()));
-    world.pairs.emplace_back();
-    world.pairs.back().bodyA = a, world.pairs.back().bodyB = b;
+    PairData pair;
+    pair.bodyA = a, pair.bodyB = b;
+    world.pairs.push_back(pair);
+    step.found.push_back(foundContact(pair));
   }
   void addJoint(JointType type, std::initializer_list<uint32_t> bodies) {
     step.islandJoints.push_back(static_cast<uint32_t>(world.joints.size()));

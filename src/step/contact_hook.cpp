@@ -82,8 +82,9 @@ void obey(const WorldData& world, StepData& step, uint32_t index, PairData& pair
 
 void askHook(WorldData& world, StepData& step) {
   for (uint32_t i = 0; i < world.pairs.size(); ++i) {
+    if (step.found[i].points == 0) continue;
     PairData& pair = world.pairs[i];
-    if (!pair.hasHook || pair.pointCount == 0) continue;
+    if (!pair.hasHook) continue;
     ContactPlan plan = planOf(world, pair);
     const bool accepted = world.contactHook(plan);
     if (!accepted) {
@@ -91,10 +92,12 @@ void askHook(WorldData& world, StepData& step) {
       world.report.points -= static_cast<uint32_t>(pair.pointCount);
       forgetContact(world, step, pair);
       step.touchChanges.push_back(pair.key());
+      step.found[i] = foundContact(pair);
       continue;
     }
     checkPlan(plan, world.def.lengthUnit);
     obey(world, step, i, pair, plan);
+    step.found[i] = foundContact(pair);
   }
 }
 
@@ -106,7 +109,7 @@ void rememberPairs(const WorldData& world, StepData& step) {
 
 /// The bounds in the tree have moved on, so the next step looks for all pairs anew.
 void restorePairs(WorldData& world, StepData& step) {
-  world.pairs.swap(step.pairsBefore);
+  std::swap(world.pairs, step.pairsBefore);
   world.means.swap(step.meansBefore);
   world.lostTouches.resize(step.lostBefore);
   world.unpaired = step.unpairedBefore;

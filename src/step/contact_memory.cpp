@@ -154,11 +154,12 @@ void beginSlide(const WorldData& world, const StepData& step, PairData& pair, Ve
 
 void forgetContact(const WorldData& world, const StepData& step, PairData& pair) {
   if (step.substep == 0) pair.gonePoints = 0, pair.mean = kNone;
+  if (pair.kept.what != KeptManifold::What::Apart) pair.kept.what = KeptManifold::What::Nothing;
+  if (pair.pointCount == 0) return;  // forgotten already
   for (int i = 0; pair.mean != kNone && i < pair.pointCount; ++i)
     if (world.means[pair.mean][static_cast<size_t>(i)] != Vec3{})
       pair.gonePoints = static_cast<uint8_t>(pair.pointCount);
   pair.manifold.count = 0;
-  if (pair.kept.what != KeptManifold::What::Apart) pair.kept.what = KeptManifold::What::Nothing;
   pair.pointCount = 0;
   pair.slides = 0;
   pair.landedSliding = false;

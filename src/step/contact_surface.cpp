@@ -198,15 +198,6 @@ void findPatches(WorldData& world, StepData& step, size_t begin, size_t end) {
   run.fill();
 }
 
-void lengthenRuns(WorldData& world, StepData& step) {
-  std::vector<PairData>& pairs = world.pairs;
-  // From the end, so that nothing is overwritten before it has moved.
-  size_t from = pairs.size(), more = step.overflow.size(), to = from + more;
-  pairs.resize(to);
-  while (more > 0) {
-    const bool takesOld = from > 0 && pairs[from - 1].key() > step.overflow[more - 1].key();
-    pairs[--to] = takesOld ? pairs[--from] : step.overflow[--more];
-  }
-}
+void lengthenRuns(WorldData& world, StepData& step) { world.pairs.insert(step.overflow); }
 
 }  // namespace avbd

@@ -55,8 +55,8 @@ void findCrossings(WorldData& world, StepData& step) {
   visits.erase(std::unique(visits.begin(), visits.end()), visits.end());
   for (const uint64_t key : visits) {
     const auto low = static_cast<uint32_t>(key >> 32), high = static_cast<uint32_t>(key);
-    const PairData* pair = findPair(world, key);
-    if ((pair && pair->touching) || !passes(world, step, low, high)) continue;
+    const size_t pair = findPair(world, key);
+    if ((pair < world.pairs.size() && world.pairs[pair].touching) || !passes(world, step, low, high)) continue;
     const bool lowIsTrigger = world.shapes[low].isTrigger;
     const uint32_t trigger = lowIsTrigger ? low : high, visitor = lowIsTrigger ? high : low;
     const auto bodyId = [&](uint32_t shape) { return world.bodyIds.id(world.shapes[shape].body); };

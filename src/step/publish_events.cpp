@@ -101,7 +101,8 @@ TriggerEvent visitOf(const ShapeId (&shape)[2], const BodyId (&body)[2], bool tr
 }
 
 /// A pair of the list whose touching has changed.
-void addChange(WorldData& world, const StepData& step, const PairData& pair) {
+void addChange(WorldData& world, const StepData& step, size_t index) {
+  const PairData& pair = world.pairs[index];
   Events& events = world.events;
   if (pair.isTrigger) {
     const ShapeId shape[2] = {pair.shapeId(0), pair.shapeId(1)};
@@ -114,7 +115,7 @@ void addChange(WorldData& world, const StepData& step, const PairData& pair) {
     const TouchRecord& touch = touchOf(step, pair.key());
     event.position = touch.position, event.normal = touch.normal, event.impulse = touch.impulse;
   } else {
-    const TouchPlace place = lastPlace(world, pair);
+    const TouchPlace place = lastPlace(world, index);
     event.position = place.position, event.normal = place.normal;
   }
   (pair.touching ? events.begins : events.ends).push_back(event);
@@ -171,7 +172,8 @@ void publishLost(WorldData& world, StepData& step) {
   std::erase_if(all, [](const LostTouch& lost) { return lost.unwanted; });
   mergeLost(all);
   for (const LostTouch& lost : all) {
-    PairData* pair = findPair(world, keyOf(lost));
+    const size_t index = findPair(world, keyOf(lost));
+    PairData* pair = index < world.pairs.size() ? &world.pairs[index] : nullptr;
     if (!pair || pair->shapeId(0) != lost.shape[0] || pair->shapeId(1) != lost.shape[1]) {
       addLost(world.events, step, lost);
       continue;
@@ -233,11 +235,13 @@ void publishEvents(WorldData& world, StepData& step) {
   mergeTouches(step.touches);
   publishLost(world, step);
   for (const uint64_t key : step.touchChanges) {
-    PairData* pair = findPair(world, key);
-    if (!pair || pair->touching == pair->wasTouching) continue;
-    if (pair->reports) addChange(world, step, *pair);
-    pair->wasTouching = pair->touching;
-    pair->touchBegins = pair->touching;
+    const size_t index = findPair(world, key);
+    if (index == world.pairs.size()) continue;
+    PairData& pair = world.pairs[index];
+    if (pair.touching == pair.wasTouching) continue;
+    if (pair.reports) addChange(world, step, index);
+    pair.wasTouching = pair.touching;
+    pair.touchBegins = pair.touching;
   }
   for (const TriggerEvent& e : step.continuous.crossings) events.enters.push_back(e), events.leaves.push_back(e);
   const auto shapes = [](const TouchEvent& e) { return std::tie(e.shapeA, e.shapeB); };

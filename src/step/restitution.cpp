@@ -105,9 +105,8 @@ namespace {
 template <class ContactAt>
 void listBounces(const WorldData& world, StepData& step, const std::vector<uint32_t>& pairs, ContactAt contactAt) {
   for (size_t lane = 0; lane < pairs.size(); ++lane) {
-    if (pairs[lane] == kNone) continue;
+    if (pairs[lane] == kNone || !step.found[pairs[lane]].bounces) continue;
     const PairData& pair = world.pairs[pairs[lane]];
-    if (pair.restitution <= 0) continue;
     for (int i = 0; i < pair.pointCount; ++i) {
       if (pair.points[i].rebound <= 0) continue;
       const float force = contactAt(lane).point[i].lambdaN;

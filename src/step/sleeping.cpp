@@ -55,7 +55,7 @@ void listWoken(WorldData& world, StepData& step, size_t begin) {
 }
 
 /// Whether a kinematic body may pass through the other in one step, so that it has to be awake to be taken along.
-bool maySweep(const WorldData& world, const StepData& step, const PairData& pair) {
+bool maySweep(const WorldData& world, const StepData& step, const FoundContact& pair) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   if (a.type != BodyType::Kinematic && b.type != BodyType::Kinematic) return false;
   const BodyData &moves = a.type == BodyType::Kinematic ? a : b, &rests = a.type == BodyType::Kinematic ? b : a;
@@ -69,10 +69,10 @@ bool wakeTouched(WorldData& world, StepData& step) {
   step.wokenPairs.clear();
   if (world.sleep.asleep == 0) return false;
   const size_t before = step.wokenIslands.size();
-  for (const PairData& pair : world.pairs) {
-    if (pair.pointCount == 0 && !maySweep(world, step, pair)) continue;
-    wakeSide(world, step, pair.bodyA);
-    wakeSide(world, step, pair.bodyB);
+  for (const FoundContact& found : step.found) {
+    if (found.points == 0 && !maySweep(world, step, found)) continue;
+    wakeSide(world, step, found.bodyA);
+    wakeSide(world, step, found.bodyB);
   }
   if (step.wokenIslands.size() == before) return false;
   listWoken(world, step, before);

@@ -145,6 +145,19 @@ struct OldPoint {
   Vec3 mean;  ///< as in WorldData::means, after the first substep
 };
 
+/// What later stages need of all pairs, without their records.
+struct FoundContact {
+  uint32_t bodyA = 0, bodyB = 0;  ///< slots
+  uint8_t points = 0;
+  bool isFull = false;
+  bool bounces = false;  ///< has restitution
+  bool ends = false;     ///< touched in the last step, and has no points any more
+};
+inline FoundContact foundContact(const PairData& pair) {
+  return {pair.bodyA,  pair.bodyB,           static_cast<uint8_t>(pair.pointCount),
+          pair.isFull, pair.restitution > 0, pair.wasTouching && pair.pointCount == 0};
+}
+
 /// What the contact hook wants of a contact beyond its coefficients.
 struct ContactChange {
   uint32_t pair = kNone;         ///< index
@@ -206,15 +219,18 @@ struct StepData {
   Saved<D6Data> d6Before;
   Saved<LinkData> linksBefore;
   std::vector<uint32_t> unpairedBefore;
-  std::vector<PairData> pairsBefore;    ///< the same, where the contact hook may fail: if pairsKept
+  PairList pairsBefore;                 ///< the same, where the contact hook may fail: if pairsKept
   size_t lostBefore = 0;                ///< how many lostTouches there were when the step began
   std::vector<PointMeans> meansBefore;  ///< of the step before
   bool pairsKept = false;
 
   // 10_pairs
-  std::vector<uint32_t> moved;   ///< shapes that left their fat bounds
-  std::vector<uint8_t> isMoved;  ///< by shape slot
+  std::vector<uint32_t> moved;                ///< shapes that left their fat bounds
+  std::vector<uint8_t> isMoved;               ///< by shape slot
+  std::vector<uint8_t> leaving;               ///< by index in SleepData::awake: a shape of it leaves its fat bounds
+  std::vector<std::vector<uint64_t>> keysOf;  ///< by piece of `moved`: new keys that it finds
   std::vector<uint64_t> newKeys;
+  std::vector<uint8_t> parted;  ///< by pair
 
   // 20_contacts
   std::vector<SurfacePatch> patches;   ///< of one pair with a surface; by patch:
@@ -227,6 +243,7 @@ struct StepData {
   std::vector<uint8_t> oldTaken;       ///< some new point continues it
   std::vector<PairData> overflow;      ///< entries for which runs are too short, by key
   std::vector<ContactChange> changes;  ///< by pair
+  std::vector<FoundContact> found;     ///< by index of the pair
 
   std::vector<uint32_t> wokenIslands;  ///< in SleepData::islands: what a contact woke in this step
   std::vector<uint32_t> wokenPairs;    ///< indices of the first entries of their pairs
@@ -315,14 +332,22 @@ struct StepData {
   BatchView view(size_t batch);
 };
 
-/// Of a pair with at least one dynamic body.
-inline uint32_t islandOfPair(const StepData& step, const PairData& pair) {
+/// Of a PairData or FoundContact with at least one dynamic body.
+template <class Pair>
+uint32_t islandOfPair(const StepData& step, const Pair& pair) {
   const uint32_t a = step.islandOf[pair.bodyA];
   return a != kNone ? a : step.islandOf[pair.bodyB];
 }
 
 /// What the contact hook changed in a pair.
 const ContactChange& changeOf(const StepData& step, uint32_t pair);
+
+inline constexpr uint32_t kPairsAhead = 4;  ///< whose records are asked for while one is worked at
+/// Of a walk over lanes: asks for the record of a pair that comes soon.
+inline void prefetchAhead(const WorldData& world, const std::vector<uint32_t>& pairs, size_t lane) {
+  const uint32_t pair = lane + kPairsAhead < pairs.size() ? pairs[lane + kPairsAhead] : kNone;
+  if (pair != kNone) world.pairs.prefetch(pair);
+}
 
 inline constexpr float kSpeculative = 0.005f;  ///< of the length unit: margin within which contacts are found
 

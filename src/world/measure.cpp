@@ -68,7 +68,7 @@ double jointAngleError(const WorldData& data, const JointData& joint) {
   return 2 * std::atan2(length(axis), std::abs(static_cast<double>(turn.w)));
 }
 
-Contact contactOf(const WorldData& data, const PairData& pair) {
+Contact contactOf(const WorldData& data, const PairData& pair, const PairData& head) {
   Contact contact;
   contact.shapeA = data.shapeIds.id(pair.shapeA);
   contact.shapeB = data.shapeIds.id(pair.shapeB);
@@ -77,7 +77,6 @@ Contact contactOf(const WorldData& data, const PairData& pair) {
   if (pair.hasSurface) {
     (isSurface(data.shapes[pair.shapeA].geom.type) ? contact.elementA : contact.elementB) = pair.element;
   }
-  const PairData& head = *(&pair - pair.patch);
   if (head.touching) contact.touch = head.touchBegins ? TouchPhase::Begins : TouchPhase::Persists;
   contact.normal = pair.normal;
   contact.pointCount = contactPoints(pair);

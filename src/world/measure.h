@@ -19,7 +19,7 @@ double jointAngleError(const WorldData& data, const JointData& joint);
 inline int contactPoints(const PairData& pair) {
   return pair.manifold.count > 0 ? pair.manifold.count : pair.gonePoints;
 }
-/// Of an entry of a run: with those before it in front of it.
-Contact contactOf(const WorldData& data, const PairData& pair);
+/// `head`: the first entry of the pair's run.
+Contact contactOf(const WorldData& data, const PairData& pair, const PairData& head);
 
 }  // namespace avbd

@@ -46,8 +46,7 @@ void readWishes(const WorldData& data, PairData& pair) {
 
 }  // namespace
 
-PairData newPair(const WorldData& data, uint64_t key) {
-  PairData pair;
+void beginPair(const WorldData& data, PairData& pair, uint64_t key) {
   pair.shapeA = static_cast<uint32_t>(key >> 32);
   pair.shapeB = static_cast<uint32_t>(key);
   const ShapeData &a = data.shapes[pair.shapeA], &b = data.shapes[pair.shapeB];
@@ -61,68 +60,61 @@ PairData newPair(const WorldData& data, uint64_t key) {
   pair.isTrigger = a.isTrigger || b.isTrigger;
   pair.triggerIsA = a.isTrigger;
   readWishes(data, pair);
-  return pair;
 }
 
 namespace {
 
-LostTouch lostTouch(const WorldData& data, const PairData& head) {
+LostTouch lostTouch(const WorldData& data, size_t index) {
+  const PairData& head = data.pairs[index];
   LostTouch lost;
   for (int side = 0; side < 2; ++side) lost.shape[side] = head.shapeId(side), lost.body[side] = head.bodyId(side);
   lost.isTrigger = head.isTrigger, lost.triggerIsA = head.triggerIsA;
   lost.reports = head.reports;
   lost.wasTouching = head.wasTouching;
-  const TouchPlace place = lastPlace(data, head);
+  const TouchPlace place = lastPlace(data, index);
   lost.position = place.position, lost.normal = place.normal;
   return lost;
 }
 
 }  // namespace
 
-TouchPlace lastPlace(const WorldData& data, const PairData& head) {
-  const PairData* end = data.pairs.data() + data.pairs.size();
-  for (const PairData* pair = &head; pair != end && pair->key() == head.key(); ++pair)
-    if (pair->manifold.normal != Vec3{})
-      return {pair->origin + pair->manifold.points[0].position, pair->manifold.normal};
+TouchPlace lastPlace(const WorldData& data, size_t head) {
+  for (size_t i = head, end = data.pairs.endOfRun(head); i < end; ++i) {
+    const PairData& pair = data.pairs[i];
+    if (pair.manifold.normal != Vec3{}) return {pair.origin + pair.manifold.points[0].position, pair.manifold.normal};
+  }
   return {};
 }
 
-void loseTouch(WorldData& data, const PairData& pair, bool inStep) {
+void loseTouch(WorldData& data, size_t index, bool inStep) {
+  const PairData& pair = data.pairs[index];
   const bool touched = inStep && pair.touching;
   if (pair.patch != 0 || (!pair.wasTouching && !touched)) return;
-  data.lostTouches.push_back(lostTouch(data, pair));
+  data.lostTouches.push_back(lostTouch(data, index));
   data.lostTouches.back().touched = touched;
 }
 
 void updateWishes(WorldData& data) {
   if (!data.wishesChanged) return;
   data.wishesChanged = false;
-  for (PairData& pair : data.pairs) {
+  for (size_t i = 0; i < data.pairs.size(); ++i) {
+    PairData& pair = data.pairs[i];
     // The slot may be another shape's by now.
     if (!data.shapeIds.isAlive(pair.shapeId(0)) || !data.shapeIds.isAlive(pair.shapeId(1))) continue;
     const bool reported = pair.reports;
     readWishes(data, pair);
     if (pair.reports == reported) continue;
     if (reported && pair.wasTouching) {
-      data.lostTouches.push_back(lostTouch(data, pair));
+      data.lostTouches.push_back(lostTouch(data, i));
       data.lostTouches.back().reports = data.lostTouches.back().unwanted = true;
     }
     if (!reported) pair.wasTouching = false;
   }
 }
 
-namespace {
-
-struct KeyOrder {
-  bool operator()(const PairData& pair, uint64_t key) const { return pair.key() < key; }
-  bool operator()(uint64_t key, const PairData& pair) const { return key < pair.key(); }
-};
-
-}  // namespace
-
-PairData* findPair(WorldData& data, uint64_t key) {
-  const auto at = std::lower_bound(data.pairs.begin(), data.pairs.end(), key, KeyOrder{});
-  return at != data.pairs.end() && at->key() == key ? &*at : nullptr;
+size_t findPair(const WorldData& data, uint64_t key) {
+  const size_t at = data.pairs.lowerBound(key), none = data.pairs.size();
+  return at < none && data.pairs.key(at) == key ? at : none;
 }
 
 namespace {
@@ -166,10 +158,11 @@ void dropForgottenPairs(WorldData& data) {
   if (data.forgotten.empty()) return;
   std::vector<bool> forgotten(data.shapes.size());
   for (const uint32_t slot : data.forgotten) forgotten[slot] = true;
-  const auto isVoid = [&](const PairData& pair) { return forgotten[pair.shapeA] || forgotten[pair.shapeB]; };
-  for (const PairData& pair : data.pairs)
-    if (isVoid(pair)) loseTouch(data, pair, false);
-  std::erase_if(data.pairs, isVoid);
+  data.pairs.eraseIf([&](size_t i) {
+    if (!forgotten[data.pairs.shapeA(i)] && !forgotten[data.pairs.shapeB(i)]) return false;
+    loseTouch(data, i, false);
+    return true;
+  });
   data.forgotten.clear();
 }
 
@@ -178,10 +171,10 @@ void erasePairsBetween(WorldData& data, uint32_t bodyA, uint32_t bodyB) {
   if (data.pairs.empty()) return;
   for (uint32_t a = data.bodies[bodyA].firstShape; a != kNone; a = data.shapes[a].next) {
     for (uint32_t b = data.bodies[bodyB].firstShape; b != kNone; b = data.shapes[b].next) {
-      const auto run = std::equal_range(data.pairs.begin(), data.pairs.end(), slotPair(a, b), KeyOrder{});
-      if (run.first == run.second) continue;
-      loseTouch(data, *run.first, false);
-      data.pairs.erase(run.first, run.second);
+      const size_t first = findPair(data, slotPair(a, b));
+      if (first == data.pairs.size()) continue;
+      loseTouch(data, first, false);
+      data.pairs.eraseIf([&](size_t i) { return data.pairs.key(i) == slotPair(a, b); });
     }
   }
 }

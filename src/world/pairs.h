@@ -10,21 +10,21 @@ bool filtersMeet(const Filter& a, const Filter& b);
 /// Whether a pair of these two shapes may exist: different bodies, one of them dynamic, one of them convex, filters,
 /// exclusions. A trigger sees kinematic bodies too, but nothing static and no other trigger.
 bool mayTouch(const WorldData& data, uint32_t shapeA, uint32_t shapeB);
-/// The pair of a key, empty.
-PairData newPair(const WorldData& data, uint64_t key);
-/// Keeps what is needed to report the begin and the end of a touching pair that leaves the list. Of a run: its first
-/// entry, with all others still behind it. `inStep`: between substeps, so that `touching` is of this step.
-void loseTouch(WorldData& data, const PairData& pair, bool inStep);
-/// Where the shapes of a pair (of a run: its first entry) were last near each other.
+/// A fresh pair becomes that of a key.
+void beginPair(const WorldData& data, PairData& pair, uint64_t key);
+/// Keeps what is needed to report the begin and the end of a touching pair (index) that leaves the list. Of a run: its
+/// first entry, with all others still behind it. `inStep`: between substeps, so that `touching` is of this step.
+void loseTouch(WorldData& data, size_t pair, bool inStep);
+/// Where the shapes of a pair (index; of a run: its first entry) were last near each other.
 struct TouchPlace {
   Vec3d position;  ///< of a point between them
   Vec3 normal;
 };
-TouchPlace lastPlace(const WorldData& data, const PairData& head);
+TouchPlace lastPlace(const WorldData& data, size_t head);
 /// Tells the pairs what their shapes want now (WorldData::wishesChanged).
 void updateWishes(WorldData& data);
-/// First entry of the pair in the list, or null.
-PairData* findPair(WorldData& data, uint64_t key);
+/// Index of the pair's first entry in the list, or WorldData::pairs.size().
+size_t findPair(const WorldData& data, uint64_t key);
 
 /// The pairs become void at once and leave the list with all others at the next step: closing the gaps one by one would
 /// move the whole list for each.

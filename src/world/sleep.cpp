@@ -138,9 +138,7 @@ void returnPairs(WorldData& data) {
     std::sort(back.begin(), back.end(), [](const PairData& x, const PairData& y) {
       return std::make_tuple(x.key(), x.patch) < std::make_tuple(y.key(), y.patch);
     });
-  insertSorted(
-      data.pairs, back.size(), [&](const PairData& pair, size_t i) { return pair.key() > back[i].key(); },
-      [&](size_t i) { return back[i]; });
+  data.pairs.insert(back);
 }
 
 void unpairWoken(WorldData& data) {
@@ -200,30 +198,29 @@ void addSupport(const WorldData& data, SleepingIsland& island, uint32_t body) {
 
 /// What two different islands have to do with each other, which is a trigger or a touch that has just ended, stays.
 void storePairs(WorldData& data, bool keep) {
-  std::vector<PairData>& pairs = data.pairs;
-  size_t size = 0;
-  for (size_t i = 0, end; i < pairs.size(); i = end) {
+  PairList& pairs = data.pairs;
+  bool stays = true;
+  const auto storeRun = [&](size_t i) {
     bool matters = false;
-    for (end = i; end < pairs.size() && pairs[end].key() == pairs[i].key(); ++end)
-      matters = matters || pairs[end].pointCount > 0 || pairs[end].wasTouching;
+    const size_t end = pairs.endOfRun(i);
+    for (size_t k = i; k < end; ++k) matters = matters || pairs[k].pointCount > 0 || pairs[k].wasTouching;
     const uint32_t a = pairs[i].bodyA, b = pairs[i].bodyB;
     const uint32_t islandA = data.bodies[a].sleepIsland, islandB = data.bodies[b].sleepIsland;
     const bool apart = islandA != kNone ? islandB != kNone && islandB != islandA : islandB == kNone;
-    const bool stays = isAwake(data, a) || isAwake(data, b) || (matters && apart);
-    if (!stays && matters && keep) {
-      SleepingIsland& island = data.sleep.islands[islandA != kNone ? islandA : islandB];
-      for (size_t k = i; k < end; ++k) {
-        island.pairs.push_back(pairs[k]);
-        // Means are of one step.
-        island.pairs.back().mean = kNone, island.pairs.back().gonePoints = 0, island.pairs.back().touchBegins = false;
-      }
-      addSupport(data, island, a), addSupport(data, island, b);
+    stays = isAwake(data, a) || isAwake(data, b) || (matters && apart);
+    if (stays || !matters || !keep) return;
+    SleepingIsland& island = data.sleep.islands[islandA != kNone ? islandA : islandB];
+    for (size_t k = i; k < end; ++k) {
+      island.pairs.push_back(pairs[k]);
+      // Means are of one step.
+      island.pairs.back().mean = kNone, island.pairs.back().gonePoints = 0, island.pairs.back().touchBegins = false;
     }
-    if (!stays) continue;
-    for (size_t k = i; k < end; ++k, ++size)
-      if (size != k) pairs[size] = pairs[k];
-  }
-  pairs.resize(size);
+    addSupport(data, island, a), addSupport(data, island, b);
+  };
+  pairs.eraseIf([&](size_t i) {
+    if (pairs[i].patch == 0) storeRun(i);
+    return !stays;
+  });
 }
 
 void storeJoints(WorldData& data) {

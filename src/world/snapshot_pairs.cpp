@@ -204,9 +204,9 @@ void putOther(const std::byte*& from, uint32_t bits, uint32_t bit, T& now, const
 void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expected& expected) {
   // All members by name, so that a new one does not compile before it is written here and read below.
   auto& [shapeA, shapeB, bodyA, bodyB, generation, patch, material, element, hasSurface, isTrigger, triggerIsA, reports,
-         wantsHits, hasHook, isFull, touching, wasTouching, touchBegins, origin, manifold, kept, normal, t1, t2, points,
-         pointCount, staticFriction, friction, restitution, torsionalFriction, rollingFriction, turn, torque, slides,
-         landedSliding, gonePoints, mean] = pair;
+         wantsHits, hasHook, isFull, touching, wasTouching, touchBegins, slides, landedSliding, pointCount, gonePoints,
+         mean, kept, staticFriction, friction, restitution, torsionalFriction, rollingFriction, origin, manifold,
+         normal, t1, t2, points, turn, torque] = pair;
   [[maybe_unused]] auto& [newNormal, newCount, newPoints, clear, carrier] = manifold;  // the last two are no state
   std::byte* const head = to;
   to += sizeof(uint32_t);
@@ -294,7 +294,8 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
 
 }  // namespace
 
-void codePairList(Writer& out, const WorldData& data, const std::vector<PairData>& pairs) {
+template <class List>
+void codePairList(Writer& out, const WorldData& data, const List& pairs) {
   out.number(pairs.size());
   Expected expected;
   for (const PairData& pair : pairs) {
@@ -304,22 +305,30 @@ void codePairList(Writer& out, const WorldData& data, const std::vector<PairData
   }
 }
 
-size_t codePairList(Reader& in, const WorldData& data, std::vector<PairData>& pairs) {
-  pairs.resize(in.count(2 * sizeof(uint32_t)));
+template <class List>
+size_t codePairList(Reader& in, const WorldData& data, List& pairs) {
+  const size_t count = in.count(2 * sizeof(uint32_t));
+  pairs.clear();
+  pairs.reserve(count);
   Expected expected;
   const PairData* before = nullptr;
   size_t means = 0;
-  for (PairData& pair : pairs) {
+  for (size_t i = 0; i < count; ++i) {
+    PairData pair;
     const std::byte* const begin = in.piece(kPairBytes);
     const std::byte* from = begin;
     readPair(from, data, pair, expected);
     in.advance(static_cast<size_t>(from - begin));
     checkPair(data, pair, before);
     if (pair.mean != kNone) means = std::max(means, pair.mean + size_t{1});
-    before = &pair;
+    pairs.push_back(pair);
+    before = &pairs[i];
   }
   return means;
 }
+
+template void codePairList(Writer&, const WorldData&, const std::vector<PairData>&);
+template size_t codePairList(Reader&, const WorldData&, std::vector<PairData>&);
 
 void codePairs(Writer& out, const WorldData& data) {
   codePairList(out, data, data.pairs);

@@ -1,0 +1,75 @@
+// Pairs in order (pair_list.h).
+#include "world/pair_list.h"
+
+#include <algorithm>
+
+namespace avbd {
+
+size_t PairList::lowerBound(uint64_t key) const {
+  const auto at = std::lower_bound(order_.begin(), order_.end(), key,
+                                   [](const Entry& entry, uint64_t value) { return entry.key < value; });
+  return static_cast<size_t>(at - order_.begin());
+}
+
+void PairList::clear() {
+  order_.clear();
+  records_.clear();
+  free_.clear();
+  strayed_ = 0;
+}
+
+void PairList::reserve(size_t count) {
+  order_.reserve(count);
+  records_.reserve(count);
+}
+
+uint32_t PairList::takeRecord() {
+  if (free_.empty()) {
+    records_.emplace_back();
+    return static_cast<uint32_t>(records_.size() - 1);
+  }
+  const uint32_t record = free_.back();
+  free_.pop_back();
+  return record;
+}
+
+void PairList::push_back(const PairData& pair) {
+  const uint32_t record = takeRecord();
+  records_[record] = pair;
+  order_.push_back(entryOf(pair, record));
+}
+
+void PairList::insert(std::span<const PairData> pairs) {
+  fresh_.clear();
+  for (const PairData& pair : pairs) {
+    const uint32_t record = takeRecord();
+    records_[record] = pair;
+    fresh_.push_back(entryOf(pair, record));
+  }
+  add(fresh_);
+}
+
+void PairList::add(std::span<const Entry> entries) {
+  const bool atEnd = entries.empty() || order_.empty() || order_.back().key <= entries[0].key;
+  if (!atEnd || !free_.empty()) strayed_ += entries.size();
+  insertSorted(
+      order_, entries.size(), [&](const Entry& entry, size_t i) { return entry.key > entries[i].key; },
+      [&](size_t i) { return entries[i]; });
+  if (strayed_ > order_.size() / kMostStrayed) sortRecords();
+}
+
+void PairList::sortRecords() {
+  constexpr size_t kAhead = 4;
+  spare_.clear();
+  spare_.reserve(records_.capacity());
+  for (size_t i = 0; i < order_.size(); ++i) {
+    if (i + kAhead < order_.size()) prefetch(i + kAhead);
+    spare_.push_back(records_[order_[i].record]);
+    order_[i].record = static_cast<uint32_t>(i);
+  }
+  records_.swap(spare_);
+  free_.clear();
+  strayed_ = 0;
+}
+
+}  // namespace avbd

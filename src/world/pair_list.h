@@ -1,0 +1,148 @@
+// The pairs of a world in the order of their keys. What moves when pairs come and go are the entries of the order, 16
+// bytes each; the records, half a kilobyte each, stay where they are until so many are out of order that walking the
+// list would wait for memory: then all are put in order at once.
+#pragma once
+
+#include <cstddef>
+#include <iterator>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "base/insert_sorted.h"
+#include "world/pair_data.h"
+
+namespace avbd {
+
+class PairList {
+  template <class List>
+  class Iterator;
+
+ public:
+  using iterator = Iterator<PairList>;
+  using const_iterator = Iterator<const PairList>;
+
+  size_t size() const { return order_.size(); }
+  bool empty() const { return order_.empty(); }
+  /// A record stays valid until pairs are added.
+  PairData& operator[](size_t i) { return records_[order_[i].record]; }
+  const PairData& operator[](size_t i) const { return records_[order_[i].record]; }
+  inline iterator begin();
+  inline iterator end();
+  inline const_iterator begin() const;
+  inline const_iterator end() const;
+
+  // What is known of a pair without its record.
+  uint64_t key(size_t i) const { return order_[i].key; }
+  uint32_t shapeA(size_t i) const { return static_cast<uint32_t>(key(i) >> 32); }
+  uint32_t shapeB(size_t i) const { return static_cast<uint32_t>(key(i)); }
+  /// Two convex shapes, or one and a half space, that are no triggers.
+  bool isConvex(size_t i) const { return order_[i].isConvex; }
+
+  /// Asks for a record before it is needed, as the order in which they lie is not that of the list: all of it, or of a
+  /// pair that did not touch the first lines.
+  void prefetch(size_t i) const {
+    const char* record = reinterpret_cast<const char*>(&(*this)[i]);
+    const size_t size = order_[i].touches ? sizeof(PairData) : kLinesApart * kCacheLine;
+    for (size_t line = 0; line < size; line += kCacheLine) __builtin_prefetch(record + line, 1);
+  }
+  /// Whether it has points now, for prefetch().
+  void setTouches(size_t i, bool touches) {
+    if (order_[i].touches != touches) order_[i].touches = touches;
+  }
+
+  /// The first pair whose key is not below this one.
+  size_t lowerBound(uint64_t key) const;
+  /// Behind the last of the pair's run.
+  size_t endOfRun(size_t i) const {
+    size_t end = i + 1;
+    while (end < size() && key(end) == key(i)) ++end;
+    return end;
+  }
+
+  void clear();
+  void reserve(size_t count);
+  /// Behind all others.
+  void push_back(const PairData& pair);
+  /// New pairs, ascending by key, to their places: behind those of the same key.
+  void insert(std::span<const PairData> pairs);
+  /// New pairs of these keys, ascending, none of which is there yet: fill(pair, key) makes each out of a fresh one.
+  template <class Fill>
+  void insert(std::span<const uint64_t> keys, Fill&& fill);
+  /// Takes out the pairs of which is(i) holds. It is asked once for each in order, and finds all from i on in place.
+  template <class Is>
+  void eraseIf(Is&& is);
+
+ private:
+  static constexpr size_t kCacheLine = 64, kLinesApart = 2;
+  static constexpr size_t kMostStrayed = 5;  ///< as a divisor of the number of pairs
+  struct Entry {
+    uint64_t key;
+    uint32_t record;
+    bool isConvex, touches;
+  };
+  static Entry entryOf(const PairData& pair, uint32_t record) {
+    return {pair.key(), record, !pair.isTrigger && !pair.hasSurface, pair.pointCount > 0};
+  }
+  uint32_t takeRecord();
+  void add(std::span<const Entry> entries);
+  void sortRecords();
+
+  std::vector<Entry> order_;
+  std::vector<PairData> records_, spare_;
+  std::vector<uint32_t> free_;  ///< of the records
+  std::vector<Entry> fresh_;
+  size_t strayed_ = 0;  ///< how many records were taken out of order
+};
+
+template <class Fill>
+void PairList::insert(std::span<const uint64_t> keys, Fill&& fill) {
+  fresh_.clear();
+  for (const uint64_t key : keys) {
+    const uint32_t record = takeRecord();
+    records_[record] = PairData{};
+    fill(records_[record], key);
+    fresh_.push_back(entryOf(records_[record], record));
+  }
+  add(fresh_);
+}
+
+template <class List>
+class PairList::Iterator {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = PairData;
+  using difference_type = std::ptrdiff_t;
+  using reference = std::conditional_t<std::is_const_v<List>, const PairData&, PairData&>;
+  using pointer = std::remove_reference_t<reference>*;
+
+  Iterator() = default;
+  Iterator(List* list, size_t at) : list_(list), at_(at) {}
+  reference operator*() const { return (*list_)[at_]; }
+  pointer operator->() const { return &(*list_)[at_]; }
+  Iterator& operator++() { return ++at_, *this; }
+  bool operator==(const Iterator& other) const { return at_ == other.at_; }
+
+ private:
+  List* list_ = nullptr;
+  size_t at_ = 0;
+};
+
+PairList::iterator PairList::begin() { return {this, 0}; }
+PairList::iterator PairList::end() { return {this, size()}; }
+PairList::const_iterator PairList::begin() const { return {this, 0}; }
+PairList::const_iterator PairList::end() const { return {this, size()}; }
+
+template <class Is>
+void PairList::eraseIf(Is&& is) {
+  size_t size = 0;
+  for (size_t i = 0; i < order_.size(); ++i) {
+    if (is(i))
+      free_.push_back(order_[i].record);
+    else
+      order_[size++] = order_[i];
+  }
+  order_.resize(size);
+}
+
+}  // namespace avbd
