@@ -36,8 +36,7 @@ Aabb sweptBounds(const BodyData& body, const ShapeData& shape, float h, float ma
 }
 
 /// Whether it may leave its fat bounds in this step.
-bool leaves(const WorldData& world, const StepData& step, const BodyData& body, uint32_t slot) {
-  const ShapeData& shape = world.shapes[slot];
+bool leaves(const WorldData& world, const StepData& step, const BodyData& body, const ShapeData& shape) {
   const float margin = kSpeculative * world.def.lengthUnit;
   return !contains(world.tree.box(shape.proxy), sweptBounds(body, shape, step.h, margin));
 }
@@ -52,20 +51,20 @@ void refit(WorldData& world, StepData& step, uint32_t slot) {
 /// Shapes of bodies that are awake and leave their bounds, in the order of the bodies.
 void refitAwake(WorldData& world, StepData& step) {
   const std::vector<uint32_t>& awake = world.sleep.awake;
-  const auto shapesOf = [&](uint32_t i, auto&& f) {
+  const auto forShapes = [&](uint32_t i, auto&& f) {
     const BodyData& body = world.bodies[awake[i]];
-    for (uint32_t s = body.firstShape; s != kNone; s = world.shapes[s].next)
-      if (leaves(world, step, body, s)) f(s);
+    for (uint32_t s = body.firstShape; s != kNone; s = world.shapes[s].next) f(body, s);
   };
-  step.leaving.resize(awake.size());
+  step.leaving.resize(world.shapes.size());
   step.jobs->forRange(static_cast<uint32_t>(awake.size()), 64, [&](uint32_t begin, uint32_t end, int) {
-    for (uint32_t i = begin; i < end; ++i) {
-      step.leaving[i] = 0;
-      shapesOf(i, [&](uint32_t) { step.leaving[i] = 1; });
-    }
+    for (uint32_t i = begin; i < end; ++i)
+      forShapes(
+          i, [&](const BodyData& body, uint32_t s) { step.leaving[s] = leaves(world, step, body, world.shapes[s]); });
   });
   for (uint32_t i = 0; i < awake.size(); ++i)
-    if (step.leaving[i]) shapesOf(i, [&](uint32_t slot) { refit(world, step, slot); });
+    forShapes(i, [&](const BodyData&, uint32_t s) {
+      if (step.leaving[s]) refit(world, step, s);
+    });
 }
 
 void refitMoved(WorldData& world, StepData& step) {

@@ -54,7 +54,7 @@ void findManifold(WorldData& world, const StepData& step, PairData& pair) {
 void findManifolds(WorldData& world, StepData& step) {
   const auto find = [&](uint32_t begin, uint32_t end, int) {
     for (uint32_t i = begin; i < end; ++i) {
-      if (i + kPairsAhead < world.pairs.size()) world.pairs.prefetch(i + kPairsAhead);
+      world.pairs.prefetch(i + PairList::kAhead);
       if (!world.pairs.isConvex(i)) continue;
       PairData& pair = world.pairs[i];
       if (step.substep == 0) pair.touching = pair.touchBegins = false;
@@ -108,6 +108,12 @@ void findRest(WorldData& world, StepData& step, size_t begin, size_t end) {
   }
 }
 
+/// Fills step.found anew, where the list of pairs has changed.
+void noteAll(const WorldData& world, StepData& step) {
+  step.found.resize(world.pairs.size());
+  for (size_t i = 0; i < step.found.size(); ++i) step.found[i] = foundContact(world.pairs[i]);
+}
+
 /// Patches for which there was no place in their runs.
 void addOverflow(WorldData& world, StepData& step) {
   if (step.overflow.empty()) return;
@@ -129,11 +135,6 @@ void findWoken(WorldData& world, StepData& step) {
 }
 
 }  // namespace
-
-void noteAll(const WorldData& world, StepData& step) {
-  step.found.resize(world.pairs.size());
-  for (size_t i = 0; i < step.found.size(); ++i) step.found[i] = foundContact(world.pairs[i]);
-}
 
 void findContacts(WorldData& world, StepData& step) {
   step.overflow.clear();

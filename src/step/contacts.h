@@ -61,9 +61,6 @@ void lengthenRuns(WorldData& world, StepData& step);
 /// Whether a trigger and its visitor overlap (contact_trigger.cpp).
 bool overlaps(const WorldData& world, StepData& step, const PairData& pair);
 
-/// Fills step.found anew, where the list of pairs has changed.
-void noteAll(const WorldData& world, StepData& step);
-
 /// Lets the user's hook see and change contacts; throws Error for what it may not say (contact_hook.cpp).
 void askHook(WorldData& world, StepData& step);
 /// For askHook: to undo a step that it stops.

@@ -227,7 +227,7 @@ struct StepData {
   // 10_pairs
   std::vector<uint32_t> moved;                ///< shapes that left their fat bounds
   std::vector<uint8_t> isMoved;               ///< by shape slot
-  std::vector<uint8_t> leaving;               ///< by index in SleepData::awake: a shape of it leaves its fat bounds
+  std::vector<uint8_t> leaving;               ///< by shape slot, of bodies that are awake: it leaves its fat bounds
   std::vector<std::vector<uint64_t>> keysOf;  ///< by piece of `moved`: new keys that it finds
   std::vector<uint64_t> newKeys;
   std::vector<uint8_t> parted;  ///< by pair
@@ -342,11 +342,9 @@ uint32_t islandOfPair(const StepData& step, const Pair& pair) {
 /// What the contact hook changed in a pair.
 const ContactChange& changeOf(const StepData& step, uint32_t pair);
 
-inline constexpr uint32_t kPairsAhead = 4;  ///< whose records are asked for while one is worked at
 /// Of a walk over lanes: asks for the record of a pair that comes soon.
-inline void prefetchAhead(const WorldData& world, const std::vector<uint32_t>& pairs, size_t lane) {
-  const uint32_t pair = lane + kPairsAhead < pairs.size() ? pairs[lane + kPairsAhead] : kNone;
-  if (pair != kNone) world.pairs.prefetch(pair);
+AVBD_INLINE void prefetchAhead(const WorldData& world, const std::vector<uint32_t>& pairs, size_t lane) {
+  if (lane + PairList::kAhead < pairs.size()) world.pairs.prefetch(pairs[lane + PairList::kAhead]);
 }
 
 inline constexpr float kSpeculative = 0.005f;  ///< of the length unit: margin within which contacts are found

@@ -33,19 +33,17 @@ uint32_t PairList::takeRecord() {
   return record;
 }
 
-void PairList::push_back(const PairData& pair) {
+PairList::Entry PairList::store(const PairData& pair) {
   const uint32_t record = takeRecord();
   records_[record] = pair;
-  order_.push_back(entryOf(pair, record));
+  return entryOf(pair, record);
 }
+
+void PairList::push_back(const PairData& pair) { order_.push_back(store(pair)); }
 
 void PairList::insert(std::span<const PairData> pairs) {
   fresh_.clear();
-  for (const PairData& pair : pairs) {
-    const uint32_t record = takeRecord();
-    records_[record] = pair;
-    fresh_.push_back(entryOf(pair, record));
-  }
+  for (const PairData& pair : pairs) fresh_.push_back(store(pair));
   add(fresh_);
 }
 
@@ -59,15 +57,14 @@ void PairList::add(std::span<const Entry> entries) {
 }
 
 void PairList::sortRecords() {
-  constexpr size_t kAhead = 4;
-  spare_.clear();
   spare_.reserve(records_.capacity());
   for (size_t i = 0; i < order_.size(); ++i) {
-    if (i + kAhead < order_.size()) prefetch(i + kAhead);
+    prefetch(i + kAhead);
     spare_.push_back(records_[order_[i].record]);
     order_[i].record = static_cast<uint32_t>(i);
   }
   records_.swap(spare_);
+  spare_.clear();  // so that a copy of the list has each record once
   free_.clear();
   strayed_ = 0;
 }

@@ -3,6 +3,8 @@
 // list would wait for memory: then all are put in order at once.
 #pragma once
 
+#include <avbd/rows/real.h>
+
 #include <cstddef>
 #include <iterator>
 #include <span>
@@ -39,9 +41,13 @@ class PairList {
   /// Two convex shapes, or one and a half space, that are no triggers.
   bool isConvex(size_t i) const { return order_[i].isConvex; }
 
+  /// How many pairs before it is worked at a record is asked for.
+  static constexpr size_t kAhead = 4;
   /// Asks for a record before it is needed, as the order in which they lie is not that of the list: all of it, or of a
-  /// pair that did not touch the first lines.
-  void prefetch(size_t i) const {
+  /// pair that did not touch the first lines. There need not be one. Inline always: g++ drops calls of a function
+  /// that does nothing else.
+  AVBD_INLINE void prefetch(size_t i) const {
+    if (i >= size()) return;
     const char* record = reinterpret_cast<const char*>(&(*this)[i]);
     const size_t size = order_[i].touches ? sizeof(PairData) : kLinesApart * kCacheLine;
     for (size_t line = 0; line < size; line += kCacheLine) __builtin_prefetch(record + line, 1);
@@ -85,6 +91,7 @@ class PairList {
     return {pair.key(), record, !pair.isTrigger && !pair.hasSurface, pair.pointCount > 0};
   }
   uint32_t takeRecord();
+  Entry store(const PairData& pair);
   void add(std::span<const Entry> entries);
   void sortRecords();
 
