@@ -27,7 +27,7 @@ struct Graph {
     step.islandPairs.push_back(static_cast<uint32_t>(world.pairs.size()));
     PairData pair;
     pair.bodyA = a, pair.bodyB = b;
-    world.pairs.push_back(pair);
+    world.pairs.insert({&pair, 1});
     step.found.push_back(foundContact(pair));
   }
   void addJoint(JointType type, std::initializer_list<uint32_t> bodies) {

@@ -105,7 +105,7 @@ TEST(StateHash, SeesEveryFieldThatAStepChanges) {
   make(data, {.shape = Box{}});
   make(data, {.position = {3, 0, 0}, .shape = Box{}});
   addJoint(data, checkedJoint(data, BallJoint{.bodyA = data.bodyIds.id(0)}));
-  data.pairs.push_back({});
+  data.pairs.insert(std::vector<PairData>(1));
   data.pairs[0].shapeB = data.pairs[0].bodyB = 1;
   data.pairs[0].pointCount = 1;
   data.pairs[0].kept.what = KeptManifold::What::PointsOnA;
@@ -153,7 +153,7 @@ TEST(StateHash, SeesEveryFieldThatAStepChanges) {
 TEST(StateHash, DoesNotSeeWhatIsUnused) {
   WorldData data;
   make(data, {.shape = Box{}});
-  data.pairs.push_back({});
+  data.pairs.insert(std::vector<PairData>(1));
   const uint64_t before = stateHash(data);
   data.pairs[0].points[3].feature = 9;
   data.report.seconds[0] = 1;

@@ -18,11 +18,6 @@ void PairList::clear() {
   strayed_ = 0;
 }
 
-void PairList::reserve(size_t count) {
-  order_.reserve(count);
-  records_.reserve(count);
-}
-
 uint32_t PairList::takeRecord() {
   if (free_.empty()) {
     records_.emplace_back();
@@ -33,17 +28,13 @@ uint32_t PairList::takeRecord() {
   return record;
 }
 
-PairList::Entry PairList::store(const PairData& pair) {
-  const uint32_t record = takeRecord();
-  records_[record] = pair;
-  return entryOf(pair, record);
-}
-
-void PairList::push_back(const PairData& pair) { order_.push_back(store(pair)); }
-
 void PairList::insert(std::span<const PairData> pairs) {
   fresh_.clear();
-  for (const PairData& pair : pairs) fresh_.push_back(store(pair));
+  for (const PairData& pair : pairs) {
+    const uint32_t record = takeRecord();
+    records_[record] = pair;
+    fresh_.push_back(entryOf(pair, record));
+  }
   add(fresh_);
 }
 

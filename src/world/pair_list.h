@@ -67,9 +67,9 @@ class PairList {
   }
 
   void clear();
-  void reserve(size_t count);
-  /// Behind all others.
-  void push_back(const PairData& pair);
+  /// Becomes `count` pairs: fill(pair) makes each, in order, out of one that may have been another.
+  template <class Fill>
+  void assign(size_t count, Fill&& fill);
   /// New pairs, ascending by key, to their places: behind those of the same key.
   void insert(std::span<const PairData> pairs);
   /// New pairs of these keys, ascending, none of which is there yet: fill(pair, key) makes each out of a fresh one.
@@ -91,7 +91,6 @@ class PairList {
     return {pair.key(), record, !pair.isTrigger && !pair.hasSurface, pair.pointCount > 0};
   }
   uint32_t takeRecord();
-  Entry store(const PairData& pair);
   void add(std::span<const Entry> entries);
   void sortRecords();
 
@@ -101,6 +100,18 @@ class PairList {
   std::vector<Entry> fresh_;
   size_t strayed_ = 0;  ///< how many records were taken out of order
 };
+
+template <class Fill>
+void PairList::assign(size_t count, Fill&& fill) {
+  free_.clear();
+  strayed_ = 0;
+  records_.resize(count);
+  order_.resize(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    fill(records_[i]);
+    order_[i] = entryOf(records_[i], i);
+  }
+}
 
 template <class Fill>
 void PairList::insert(std::span<const uint64_t> keys, Fill&& fill) {

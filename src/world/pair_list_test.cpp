@@ -57,7 +57,7 @@ TEST(PairList, KeepsOrderAndRecordsWhateverComesAndGoes) {
 
 TEST(PairList, ARunStaysTogetherAndGrowsAtItsEnd) {
   PairList list;
-  for (const uint64_t shapeB : {2u, 4u, 6u}) list.push_back(pairOf(shapeB));
+  list.insert(std::vector{pairOf(2), pairOf(4), pairOf(6)});
   const PairData more[] = {pairOf(4, 1), pairOf(4, 2), pairOf(5)};
   list.insert(more);
   std::vector<std::pair<uint32_t, uint16_t>> seen;
@@ -72,7 +72,9 @@ TEST(PairList, ARunStaysTogetherAndGrowsAtItsEnd) {
 
 TEST(PairList, EraseIfFindsAllFromItsPlaceOn) {
   PairList list;
-  for (uint64_t shapeB = 1; shapeB <= 8; ++shapeB) list.push_back(pairOf(shapeB));
+  list.insert(std::vector{pairOf(9)});
+  uint64_t shapeB = 0;
+  list.assign(8, [&](PairData& pair) { pair = pairOf(++shapeB); });
   list.eraseIf([&](size_t i) {
     EXPECT_EQ(list.size(), 8u);
     EXPECT_EQ(list[7].shapeB, 8u);
@@ -90,7 +92,7 @@ TEST(PairList, KnowsWhatIsNeitherTriggerNorSurface) {
   PairList list;
   PairData trigger = pairOf(1), surface = pairOf(2);
   trigger.isTrigger = true, surface.hasSurface = true;
-  for (const PairData& pair : {trigger, surface, pairOf(3)}) list.push_back(pair);
+  list.insert(std::vector{trigger, surface, pairOf(3)});
   EXPECT_FALSE(list.isConvex(0));
   EXPECT_FALSE(list.isConvex(1));
   EXPECT_TRUE(list.isConvex(2));

@@ -47,7 +47,7 @@ class Pairs : public testing::Test {
     pair.shapeB = shapeB;
     pair.bodyA = data.shapes[shapeA].body;
     pair.bodyB = data.shapes[shapeB].body;
-    data.pairs.push_back(pair);
+    data.pairs.insert({&pair, 1});
   }
   std::vector<std::pair<uint32_t, uint32_t>> pairs() const {
     std::vector<std::pair<uint32_t, uint32_t>> all;

@@ -292,10 +292,8 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
   readKept(from, pair, data, expected.bodies);
 }
 
-}  // namespace
-
 template <class List>
-void codePairList(Writer& out, const WorldData& data, const List& pairs) {
+void writePairs(Writer& out, const WorldData& data, const List& pairs) {
   out.number(pairs.size());
   Expected expected;
   for (const PairData& pair : pairs) {
@@ -305,40 +303,50 @@ void codePairList(Writer& out, const WorldData& data, const List& pairs) {
   }
 }
 
-template <class List>
-size_t codePairList(Reader& in, const WorldData& data, List& pairs) {
-  const size_t count = in.count(2 * sizeof(uint32_t));
-  pairs.clear();
-  pairs.reserve(count);
-  Expected expected;
+size_t countPairs(Reader& in) { return in.count(2 * sizeof(uint32_t)); }
+
+/// Reads the pairs of a list one by one, each to its place in it.
+struct PairReader {
+  Reader& in;
+  const WorldData& data;
+  Expected expected{};
   const PairData* before = nullptr;
-  size_t means = 0;
-  for (size_t i = 0; i < count; ++i) {
-    PairData pair;
+  size_t means = 0;  ///< how many they name
+
+  void operator()(PairData& pair) {
     const std::byte* const begin = in.piece(kPairBytes);
     const std::byte* from = begin;
     readPair(from, data, pair, expected);
     in.advance(static_cast<size_t>(from - begin));
     checkPair(data, pair, before);
     if (pair.mean != kNone) means = std::max(means, pair.mean + size_t{1});
-    pairs.push_back(pair);
-    before = &pairs[i];
+    before = &pair;
   }
-  return means;
+};
+
+}  // namespace
+
+void codePairList(Writer& out, const WorldData& data, const std::vector<PairData>& pairs) {
+  writePairs(out, data, pairs);
 }
 
-template void codePairList(Writer&, const WorldData&, const std::vector<PairData>&);
-template size_t codePairList(Reader&, const WorldData&, std::vector<PairData>&);
+size_t codePairList(Reader& in, const WorldData& data, std::vector<PairData>& pairs) {
+  pairs.resize(countPairs(in));
+  PairReader read{in, data};
+  for (PairData& pair : pairs) read(pair);
+  return read.means;
+}
 
 void codePairs(Writer& out, const WorldData& data) {
-  codePairList(out, data, data.pairs);
+  writePairs(out, data, data.pairs);
   list(out, data.means);
 }
 
 void codePairs(Reader& in, WorldData& data) {
-  const size_t means = codePairList(in, data, data.pairs);
+  PairReader read{in, data};
+  data.pairs.assign(countPairs(in), read);
   list(in, data.means);
-  require(means <= data.means.size(), "a pair's means");
+  require(read.means <= data.means.size(), "a pair's means");
 }
 
 }  // namespace avbd::snapshot

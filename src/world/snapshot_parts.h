@@ -28,11 +28,9 @@ void codeJoints(Writer& out, const WorldData& data, SharedTable& table);
 void codeJoints(Reader& in, WorldData& data, const KnownThings& things);
 void codePairs(Writer& out, const WorldData& data);
 void codePairs(Reader& in, WorldData& data);
-template <class List>  // of PairData: a vector
-void codePairList(Writer& out, const WorldData& data, const List& pairs);
+void codePairList(Writer& out, const WorldData& data, const std::vector<PairData>& pairs);
 /// Checks each; returns how many means they name.
-template <class List>
-size_t codePairList(Reader& in, const WorldData& data, List& pairs);
+size_t codePairList(Reader& in, const WorldData& data, std::vector<PairData>& pairs);
 /// What is awake, and the islands that sleep with their pairs and joints.
 void codeSleep(Writer& out, const WorldData& data);
 void codeSleep(Reader& in, WorldData& data);
