@@ -2,6 +2,7 @@
 #include <avbd/avbd.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 
@@ -256,6 +257,29 @@ TEST(Snapshot, WhatIsSharedStaysAsLongAsASnapshotMayNameIt) {
   world.restore(bytes);
   EXPECT_EQ(std::get<Hull>(world.geometry(world.shapes(rock)[0])).data->vertices().size(), corners.size());
   world.step(1.0f / 60);
+}
+
+TEST(Snapshot, ACustomJointOfMoreBodiesThanThereArePlacesIsRefused) {
+  World world;
+  const BodyId body = world.create(BodyDef{.shape = Sphere{}});
+  const float mark = 12345.5f;
+  world.create(
+      CustomJoint{.family = std::make_shared<CountingRod>(), .bodies = {BodyId{}, body}, .constants = {mark}, .memory = {0}});
+  const Bytes good = saved(world);
+  const auto* name = reinterpret_cast<const std::byte*>(&mark);
+  const size_t at =
+      static_cast<size_t>(std::search(good.begin(), good.end(), name, name + sizeof(mark)) - good.begin());
+  ASSERT_LT(at, good.size());
+  // Before the constants stands how many they are, and before that how many bodies.
+  for (const int32_t bodies : {2, 0, 5, -1}) {
+    Bytes bytes = good;
+    std::memcpy(bytes.data() + at - 5, &bodies, sizeof(bodies));
+    seal(bytes);
+    if (bodies == 2)
+      EXPECT_EQ(bytes, good);
+    else
+      expectRefused(world, bytes, "too few or too many bodies");
+  }
 }
 
 TEST(Snapshot, HostileContentUnderARightHashHarmsNothing) {

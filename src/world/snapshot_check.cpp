@@ -60,6 +60,7 @@ void checkShapeLists(const WorldData& data) {
 void checkJointBodies(const WorldData& data, uint32_t slot, size_t& links) {
   const JointData& joint = data.joints[slot];
   const int count = bodyCount(data, slot);
+  require(joint.type != JointType::Custom || (count >= 1 && count <= 4), "a joint of too few or too many bodies");
   bool moves = joint.type == JointType::Coupling;
   for (int i = 0; i < 4; ++i) {
     if (joint.body[i] == kNone) {
