@@ -159,6 +159,12 @@ TEST(Snapshot, MemoryIsTheCallers) {
   Bytes large(bytes.size() + 1000);
   EXPECT_EQ(zoo.world.save(std::span(large)), bytes.size());
   EXPECT_TRUE(std::equal(bytes.begin(), bytes.end(), large.begin()));
+  for (size_t more = 0; more < 1000; more += more < 20 ? 1 : 97) {
+    std::fill(large.begin(), large.end(), std::byte{77});
+    EXPECT_EQ(zoo.world.save(std::span(large).first(bytes.size() + more)), bytes.size());
+    EXPECT_TRUE(std::equal(bytes.begin(), bytes.end(), large.begin())) << more;
+    EXPECT_EQ(large[bytes.size()], std::byte{77});
+  }
   for (const size_t size : {size_t{0}, size_t{39}, bytes.size() / 2, bytes.size() - 1}) {
     Bytes small(size);
     try {
@@ -172,6 +178,24 @@ TEST(Snapshot, MemoryIsTheCallers) {
   zoo.world.save(large);
   EXPECT_EQ(large.data(), place) << "there was room";
   EXPECT_EQ(large, bytes);
+}
+
+TEST(Snapshot, OfAnyLengthIsCountedWhereItDoesNotFit) {
+  World world;
+  world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
+  for (int i = 0; i < 400; ++i)
+    world.create(BodyDef{.position = {1.0 * (i % 20), 0.45, 1.0 * (i / 20)}, .shape = Sphere{0.5f}});
+  for (int i = 0; i < 3; ++i) world.step(1.0f / 60);
+  const Bytes bytes = saved(world);
+  EXPECT_EQ(world.snapshotSize(), bytes.size());
+  Bytes place(bytes.size() + 8192);
+  for (const size_t missing : {size_t{1}, size_t{5000}, bytes.size() / 2, bytes.size() - 40}) {
+    std::fill(place.begin(), place.end(), std::byte{77});
+    const size_t length = bytes.size() - missing;
+    EXPECT_THROW(world.save(std::span(place).first(length)), Error) << missing;
+    EXPECT_TRUE(std::all_of(place.begin() + static_cast<ptrdiff_t>(length), place.end(),
+                            [](std::byte b) { return b == std::byte{77}; }));
+  }
 }
 
 /// Expects a refusal that says `word`, and a world that is what it was.
@@ -263,8 +287,8 @@ TEST(Snapshot, ACustomJointOfMoreBodiesThanThereArePlacesIsRefused) {
   World world;
   const BodyId body = world.create(BodyDef{.shape = Sphere{}});
   const float mark = 12345.5f;
-  world.create(
-      CustomJoint{.family = std::make_shared<CountingRod>(), .bodies = {BodyId{}, body}, .constants = {mark}, .memory = {0}});
+  world.create(CustomJoint{
+      .family = std::make_shared<CountingRod>(), .bodies = {BodyId{}, body}, .constants = {mark}, .memory = {0}});
   const Bytes good = saved(world);
   const auto* name = reinterpret_cast<const std::byte*>(&mark);
   const size_t at =

@@ -110,15 +110,23 @@ void copyFields(T& to, const T& from) {
 }
 
 /// Fills memory of the caller's: a vector that grows, or a span, where what does not fit is counted all the same.
+///
+/// Who asks for room() mostly uses less. Where a span has no such room left, what is written goes to spare memory and
+/// from there to the span, if it fits.
 class Writer {
  public:
   static constexpr bool kReads = false;
+  static constexpr size_t kSpare = 4096;
   explicit Writer(std::vector<std::byte>& out)
       : grows_(&out), begin_(out.data()), at_(begin_), end_(begin_ + out.size()) {}
   explicit Writer(std::span<std::byte> out) : begin_(out.data()), at_(begin_), end_(begin_ + out.size()) {}
 
-  size_t size() const { return gone_ + static_cast<size_t>(at_ - begin_); }
-  bool fits() const { return !over_; }
+  size_t size() const { return before_ + static_cast<size_t>(at_ - begin_); }
+  /// When all is written.
+  bool fits() {
+    settle();
+    return !over_;
+  }
   template <class T>
   void put(const T& value) {
     static_assert(kIsLeaf<T>);
@@ -126,6 +134,7 @@ class Writer {
   }
   void raw(const void* bytes, size_t size) {
     if (static_cast<size_t>(end_ - at_) < size) makeRoom(size);
+    if (static_cast<size_t>(end_ - at_) < size) return giveUp(size);
     if (size > 0) std::memcpy(at_, bytes, size);
     at_ += size;
   }
@@ -134,7 +143,7 @@ class Writer {
     for (; n >= 128; n >>= 7) put(static_cast<uint8_t>(n | 128));
     put(static_cast<uint8_t>(n));
   }
-  /// Where `size` bytes in one piece may be written, of which advance() takes what was used.
+  /// Where `size` bytes in one piece, at most kSpare, may be written, of which advance() takes what was used.
   std::byte* room(size_t size) {
     if (static_cast<size_t>(end_ - at_) < size) makeRoom(size);
     return at_;
@@ -143,6 +152,7 @@ class Writer {
 
   template <class T>
   void record(const T& now, const T& before) {
+    static_assert(kNested + sizeof(T) <= kSpare);
     room(kNested + sizeof(T));  // all in one piece, so that masks can be written after their fields
     inner(now, before);
   }
@@ -180,12 +190,16 @@ class Writer {
       f(a, b);
   }
   void makeRoom(size_t size);
+  void settle();             ///< from spare memory to the span
+  void giveUp(size_t size);  ///< of what is longer than all the room there is
 
   std::vector<std::byte>* grows_ = nullptr;
   std::byte *begin_, *at_, *end_;
-  size_t gone_ = 0;  ///< written and given up, as nothing fits any more
+  size_t before_ = 0;          ///< written before begin_
+  std::span<std::byte> rest_;  ///< of the span, while spare memory is written
+  bool spared_ = false;
   bool over_ = false;
-  std::array<std::byte, 4096> spare_;
+  std::array<std::byte, kSpare> spare_;
 };
 
 /// What a snapshot's bytes are found to break; becomes an Error.
