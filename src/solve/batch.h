@@ -6,7 +6,8 @@
 //
 // Chunks. A large island is cut into chunks of rows, so that several threads can solve it: the sums of a body are those
 // of its chunk first, then those of the seams in the order of their colours, whoever makes them. Each chunk has its own
-// static row, since rows are added to.
+// static row, since rows are added to; static rows are then in no chunk, begin at a multiple of 16, and hold sums that
+// nobody reads.
 //
 // Tiles. Constants and multipliers of 16 pairs are the transpose of their family's struct (lane/tile.h). Unused lanes
 // name the static row on both sides and have stiffness 0.

@@ -91,6 +91,18 @@ void resizeRows(StepData& step, uint32_t rows) {
   step.inverse.resize(rows / kTile);
 }
 
+/// What chunks add to and no chunk begins: rows of static and kinematic bodies.
+void clearRowsBeyondChunks(StepData& step) {
+  for (const BatchRange& batch : step.batches) {
+    if (batch.chunkCount == 1) continue;
+    const size_t begin = batch.rowBegin + step.chunks[batch.chunkBegin + batch.chunkCount - 1].rows.end;
+    const size_t end = batch.rowBegin + batch.rows;
+    for (auto* array : {&step.diagonal, &step.gradient, &step.x, &step.r, &step.z, &step.p, &step.q})
+      std::fill(array->begin() + 8 * begin, array->begin() + 8 * end, 0.0f);
+    std::fill(step.hessian.begin() + kHessianRow * begin, step.hessian.begin() + kHessianRow * end, 0.0f);
+  }
+}
+
 void resizeTiles(StepData& step) {
   step.contacts.resize(step.contactPair.size() / kTile);
   step.balls.resize(step.ballJoint.size() / kTile);
@@ -148,11 +160,12 @@ void layOutBatches(const WorldData& world, StepData& step) {
     addFull(world, step, batch);
     addJoints(world, step, batch);
     batch.rows = roundUp(batch.rows);
-    step.chunks.back().rows.end = batch.rows;
+    step.chunks.back().rows.end = batch.chunkCount > 1 ? roundUp(batch.bodies) : batch.rows;
     rows += batch.rows;
     step.batches.push_back(batch);
   }
   resizeRows(step, rows);
+  clearRowsBeyondChunks(step);
   resizeTiles(step);
 }
 

@@ -20,6 +20,10 @@ uint32_t chunkOf(const BatchRange& batch, uint32_t row) {
   return std::min(row / chunkRows(batch), batch.chunkCount - 1);
 }
 
+/// The first of the chunks' static rows. Several chunks have them beyond the tile of the last body, which belongs to
+/// the last chunk alone.
+uint32_t staticRow(const BatchRange& batch) { return batch.chunkCount > 1 ? roundUp(batch.bodies) : batch.bodies; }
+
 bool isKinematic(const WorldData& world, const FoundContact& pair) {
   return world.bodies[pair.bodyA].type == BodyType::Kinematic || world.bodies[pair.bodyB].type == BodyType::Kinematic;
 }
@@ -45,8 +49,8 @@ void placePair(const WorldData& world, StepData& step, BatchRange& batch, uint32
     const bool dynamicA = placed.rowA < batch.bodies, dynamicB = placed.rowB < batch.bodies;
     const uint32_t a = chunkOf(batch, dynamicA ? placed.rowA : placed.rowB);
     const uint32_t b = chunkOf(batch, dynamicB ? placed.rowB : placed.rowA);
-    if (placed.rowA == batch.bodies) placed.rowA += a;
-    if (placed.rowB == batch.bodies) placed.rowB += b;
+    if (placed.rowA == batch.bodies) placed.rowA = staticRow(batch) + a;
+    if (placed.rowB == batch.bodies) placed.rowB = staticRow(batch) + b;
     placed.bucket = isKinematic(world, pair) ? kNone : a == b ? a : chunks + seamBetween(scratch, chunks, a, b);
   }
   scratch.pairs.push_back(placed);
@@ -75,9 +79,9 @@ void sortSeams(ChunkScratch& scratch, uint32_t chunks) {
 
 /// The static row that a bucket's empty lanes name.
 uint32_t idleRow(const BatchRange& batch, const ChunkScratch& scratch, uint32_t bucket) {
-  if (bucket < batch.chunkCount) return batch.bodies + bucket;
+  if (bucket < batch.chunkCount) return staticRow(batch) + bucket;
   const uint32_t seam = bucket - batch.chunkCount;
-  return batch.bodies + (seam < scratch.order.size() ? scratch.seams[scratch.order[seam]].low : 0);
+  return staticRow(batch) + (seam < scratch.order.size() ? scratch.seams[scratch.order[seam]].low : 0);
 }
 
 /// Tells the batch's chunk or seam which tiles are its own.
@@ -132,7 +136,7 @@ void addChunks(StepData& step, BatchRange& batch) {
   if (batch.bodies >= kChunkedBodies) batch.chunkCount = std::max(1u, (batch.bodies + rows / 2) / rows);
   for (uint32_t i = 0; i < batch.chunkCount; ++i)
     step.chunks.push_back({{i * rows, i + 1 < batch.chunkCount ? (i + 1) * rows : batch.bodies}, {}});
-  batch.rows = batch.bodies + batch.chunkCount;
+  batch.rows = staticRow(batch) + batch.chunkCount;
 }
 
 void addContacts(const WorldData& world, StepData& step, BatchRange& batch) {
