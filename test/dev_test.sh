@@ -5,7 +5,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 fail() { echo "dev_test: $*" >&2; exit 1; }
 
-for command in run test build bench verify same-bits golden format; do
+for command in run test build bench verify same-bits golden tsan fuzz format; do
   ./dev help | grep -q "^  $command" || fail "help does not name $command"
 done
 

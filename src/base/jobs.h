@@ -13,6 +13,13 @@
 
 namespace avbd {
 
+/// For the thread sanitizer even a small world's work is shared, by more threads and in smaller pieces than pays.
+#ifdef AVBD_SHARE_ALL
+inline constexpr bool kShareAll = true;
+#else
+inline constexpr bool kShareAll = false;
+#endif
+
 class Jobs {
  public:
   static constexpr int kMostWorkers = 64;
@@ -33,6 +40,7 @@ class Jobs {
   /// Calls f(begin, end, worker) for 0 .. count in pieces of `grain`.
   template <class F>
   void forRange(uint32_t count, uint32_t grain, F&& f) {
+    if (kShareAll && grain > 8) grain = 8;
     const uint32_t pieces = (count + grain - 1) / grain;
     if (pieces == 0) return;
     run(pieces, [&](uint32_t piece, int worker) {

@@ -1,7 +1,9 @@
 // The whole frame on one page.
+#include <algorithm>
 #include <chrono>
 
 #include "base/float_mode.h"
+#include "base/jobs.h"
 #include "base/zone.h"
 #include "step/break_joints.h"
 #include "step/contacts.h"
@@ -67,7 +69,7 @@ void restore(WorldData& world, StepData& step) {
 void Stepper::step(WorldData& world, float dt) {
   StepData& step = *data_;
   const FloatMode mode;
-  if (!jobs_) jobs_ = std::make_unique<Jobs>(world.def.workers, world.def.tasks);
+  if (!jobs_) jobs_ = std::make_unique<Jobs>(std::max(world.def.workers, kShareAll ? 3 : 1), world.def.tasks);
   step.jobs = jobs_.get();
   world.report.seconds = {};
   world.report.fastBodies = world.report.impacts = 0;

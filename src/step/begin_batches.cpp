@@ -7,7 +7,7 @@ namespace avbd {
 
 namespace {
 
-constexpr uint32_t kBatchBodies = 64;  ///< islands are added to a batch until it holds so many bodies
+constexpr uint32_t kBatchBodies = kShareAll ? 1 : 64;  ///< islands are added to a batch until it holds so many bodies
 
 void clearLanes(StepData& step) {
   for (auto* lanes : {step.contactRow, step.ballRow, step.fixedRow, step.fullRow, step.scalarRow})

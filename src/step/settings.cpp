@@ -37,7 +37,8 @@ void chooseSettings(const WorldData& world, StepData& step, float h) {
   step.solve.negligible = kNegligible * step.loadDepth;
   step.solve.krylovIterations = def.krylovIterations > 0 ? def.krylovIterations : kKrylovIterations;
   step.solve = withIterations(step.solve, def.iterations);
-  const int width = def.simdWidth > 0 ? def.simdWidth : widestLane();
+  // The sanitizers see the scalar back-end alone (CMakeLists.txt).
+  const int width = def.simdWidth > 0 ? def.simdWidth : kShareAll ? 1 : widestLane();
   step.backend = &backend(width);
 }
 
