@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Compares the state hashes that test/same_bits.cpp prints with those kept in test/golden_hashes.txt.
 #   same_bits.sh check PROGRAM           in all lane widths, and with several workers
-#   same_bits.sh matrix [CELL...]        builds the library and the program anew for each cell, and checks it
+#   same_bits.sh matrix [CELL|TRIAL...]  builds the library and the program anew for each cell, and checks it; with
+#                                        trials named, those alone
 #   same_bits.sh golden PROGRAM REASON   keeps what PROGRAM prints, and says in the changelog why
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -10,8 +11,10 @@ readonly kGolden=test/golden_hashes.txt
 readonly kCells=(g++-O0 g++-O1 g++-O2 g++-O3 clang++-O0 clang++-O1 clang++-O2 clang++-O3 aarch64 wasm)
 readonly kWidths=(1 4 8 16)
 readonly kWorkers=(1 2 5 8)
+trials=()  # none: all
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+cp "$kGolden" "$scratch/golden"
 different=0
 
 die() { printf 'same_bits: %s\n' "$*" >&2; exit 2; }
@@ -27,7 +30,7 @@ one() {
     printf ' %s:FAILED' "$word"
     cat "$scratch/err" >&2
     different=1
-  elif diff "$kGolden" "$scratch/out" > "$scratch/diff"; then
+  elif diff "$scratch/golden" "$scratch/out" > "$scratch/diff"; then
     printf ' %s:same' "$word"
   else
     printf ' %s:OTHER' "$word"
@@ -41,10 +44,10 @@ row() {
   local name=$1 workers=$2 n
   shift 2
   printf '%-11s widths' "$name"
-  for n in "${kWidths[@]}"; do one "$n" "$@" --width "$n"; done
+  for n in "${kWidths[@]}"; do one "$n" "$@" --width "$n" "${trials[@]}"; done
   if [ "$workers" = workers ]; then
     printf '   workers'
-    for n in "${kWorkers[@]}"; do one "$n" "$@" --workers "$n"; done
+    for n in "${kWorkers[@]}"; do one "$n" "$@" --workers "$n" "${trials[@]}"; done
   fi
   printf '\n'
 }
@@ -93,8 +96,17 @@ command=${1:-}
 case $command in
   check) row "$(basename "${1:?check which program?}")" workers "$1" ;;
   matrix)
-    [ $# -gt 0 ] || set -- "${kCells[@]}"
-    for name in "$@"; do cell "$name"; done
+    cells=()
+    for name in "$@"; do
+      if grep -q "^$name " "$kGolden"; then trials+=("$name"); else cells+=("$name"); fi
+    done
+    [ ${#cells[@]} -gt 0 ] || cells=("${kCells[@]}")
+    if [ ${#trials[@]} -gt 0 ]; then
+      for name in "${trials[@]}"; do printf '%s \n' "$name"; done > "$scratch/names"
+      sed 's/^/^/' "$scratch/names" | grep -f - "$kGolden" > "$scratch/golden"
+    fi
+    printf '%s of %s runs\n' "$(wc -l < "$scratch/golden")" "$(wc -l < "$kGolden")"
+    for name in "${cells[@]}"; do cell "$name"; done
     ;;
   golden)
     [ $# -eq 2 ] && [ -n "$2" ] || die "golden needs a program and a reason"

@@ -193,8 +193,7 @@ Trial ofScene(const scenes::Scene& scene) {
     return s;
   };
   const auto make = [scene, settings](const WorldDef& def) { return std::move(scene.make(settings(def)).world); };
-  const size_t bodies = make(WorldDef{}).bodyCount();
-  return {scene.name, make, bodies > 500 ? 24 : 60};
+  return {scene.name, make};
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace avbd::bits {
 struct Trial {
   std::string name;
   std::function<World(const WorldDef&)> make;
-  int steps = 60;
+  int steps = 0;                         ///< 0: fewer the more bodies there are
   bool sweep = false;                    ///< once more with the block sweep
   std::function<void(World&)> before{};  ///< before each step; may be empty
 };
