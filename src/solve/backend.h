@@ -22,10 +22,10 @@ struct Backend {
   void (*updateOthers)(const BatchView&, const SolveSettings&);
 
   // Body rows; slices begin and end at multiples of 16.
-  /// mass, invMass of the bodies in tiles, in a step of h [s].
-  void (*massRows)(const BatchView&, float h, Slice rows);
-  /// free, target.
+  /// free, target of the bodies in tiles, in a step of h [s].
   void (*freeMotions)(const BatchView&, float h, Slice rows);
+  /// mass, invMass, from free.
+  void (*massRows)(const BatchView&, float h, Slice rows);
   /// end, from d.
   void (*endMotions)(const BatchView&, float h, Slice rows);
   /// gradient = M/h^2 (d - y), hessian = diagonal.

@@ -11,6 +11,15 @@ AVBD_INLINE void storeMass(float* row, const R& linear, const Sym3<R>& angular) 
   lane::storeRows<N>(row, 8, c);
 }
 
+void freeMotions(const BatchView& v, float h, Slice rows) {
+  for (uint32_t i = rows.begin; i < rows.end; i += N) {
+    const int o = static_cast<int>(i % kTile);
+    const FreeMotion<R> free = freeMotion(v.body[i / kTile].load<N>(o), h);
+    v.free[i / kTile].store<N>(o, free);
+    lane::storeTwists<N>(v.target + 8 * i, Twist<R>{free.displacement, free.turn});
+  }
+}
+
 void massRows(const BatchView& v, float h, Slice rows) {
   for (uint32_t i = rows.begin; i < rows.end; i += N) {
     const FreeBody<R> body = v.body[i / kTile].load<N>(static_cast<int>(i % kTile));
@@ -19,18 +28,9 @@ void massRows(const BatchView& v, float h, Slice rows) {
     const auto here = body.mass > 0.0f;
     const R linear = select(here, 1.0f / select(here, body.keepLinear * (h * h), splat<R>(1)), zero<R>());
     const R angular = select(here, 1.0f / select(here, body.keepAngular * (h * h), splat<R>(1)), zero<R>());
-    const M33<R> turn = toMatrix(body.q);
+    const M33<R> turn = toMatrix(v.free[i / kTile].load<N>(static_cast<int>(i % kTile)).middle);
     storeMass(v.mass + 8 * i, body.mass * linear, rotated(body.inertia, turn) * angular);
     storeMass(v.invMass + 8 * i, body.invMass, rotated(body.invInertia, turn));
-  }
-}
-
-void freeMotions(const BatchView& v, float h, Slice rows) {
-  for (uint32_t i = rows.begin; i < rows.end; i += N) {
-    const int o = static_cast<int>(i % kTile);
-    const FreeMotion<R> free = freeMotion(v.body[i / kTile].load<N>(o), h);
-    v.free[i / kTile].store<N>(o, free);
-    lane::storeTwists<N>(v.target + 8 * i, Twist<R>{free.displacement, free.turn});
   }
 }
 

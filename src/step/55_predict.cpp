@@ -1,4 +1,4 @@
-// Prediction: where each body would go alone (target y) and where the iterations start (d).
+// Prediction: where the iterations start (d).
 //
 // The start decides how near the frozen friction cones and active sets of the first iteration are to the truth. A body
 // that its contacts and joints carry starts from its velocity (at rest: from rest); one that they barely touch starts
@@ -107,7 +107,6 @@ void predict(WorldData& world, StepData& step) {
     sumCarried(world, step, batch, Parts(view, jobs));
   });
   forUnits(step, [&](const WorkUnit& unit) {
-    step.backend->freeMotions(step.view(unit.batch), step.h, {unit.rows.begin, roundUp(unit.rows.end)});
     forBodies(step, unit, [&](uint32_t index, uint32_t row) { predictBody(world, step, index, row); });
   });
 }

@@ -1,4 +1,4 @@
-// Body rows: masses in world axes, and the motion of kinematic bodies.
+// Body rows: free motion, masses in world axes, and the motion of kinematic bodies.
 #include "step/begin_chunks.h"
 #include "step/free_motion.h"
 
@@ -45,7 +45,9 @@ void fillBodies(const WorldData& world, StepData& step) {
   const float h = step.h;
   forUnits(step, [&](const WorkUnit& unit) {
     fillTiles(world, step, unit);
-    step.backend->massRows(step.view(unit.batch), h, {unit.rows.begin, roundUp(unit.rows.end)});
+    const Slice rows{unit.rows.begin, roundUp(unit.rows.end)};
+    step.backend->freeMotions(step.view(unit.batch), h, rows);
+    step.backend->massRows(step.view(unit.batch), h, rows);
     forBodies(step, unit, [&](uint32_t index, uint32_t row) {
       const uint8_t locks = world.bodies[step.order[index]].locks;
       if (locks) lockInverse(step.invMass.data() + size_t(8) * row, locks);
