@@ -40,7 +40,7 @@ Figure ballAtWall(const Settings& settings, bool mesh) {
   return {"ball_x", mesh ? "wall=triangles" : "wall=box", farthest, -100, 0, "m"};
 }
 
-// A rod of 2 m about its middle, which it keeps; the post stands beside its end.
+// A rod of 2 m on a hinge at its middle; the post stands beside its end.
 Figure rodAtPost(const Settings& settings) {
   double turned = -1e9;
   for (int i = 0; i < 10; ++i) {
@@ -49,7 +49,7 @@ Figure rodAtPost(const Settings& settings) {
     build.fixedBox("post", {0.02f, 1, 0.02f}, {0.9 * std::cos(angle), 0, -0.9 * std::sin(angle)});
     BodyDef def{.angularVelocity = {0, 60, 0}, .shape = Box{1, 0.03f, 0.03f}, .mass = 2};
     const BodyId rod = build.add("rod", def);
-    build.join(BallJoint{}, {}, rod, {});
+    build.join(HingeJoint{}, {}, rod, {{}, along({0, 1, 0})});
     Model model = build.take();
     double sum = 0;
     for (int k = 0; k < 30; ++k) {
