@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "step/begin_rows.h"
+#include "step/contact_impact.h"
 #include "step/restitution.h"
 #include "step/settings.h"
 
@@ -32,8 +33,7 @@ rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& 
   PointMemory& memory = pair.points[i];
   const Vec3 slip =
       rotate(a.rotation, memory.anchorA) - rotate(b.rotation, memory.anchorB) - toFloat(b.position - a.position);
-  // The force of an impact is no guess for the step after it.
-  if (memory.rebound > 0) memory.lambda = {};
+  forgetImpact(memory);
   rows::ContactPointRows<float> p{};
   p.arm = toRow(pair.manifold.points[i].position);
   p.biasN = normalBias(world, step, pair.manifold.points[i].separation);
@@ -79,6 +79,7 @@ rows::Contact<float> contactRows(const WorldData& world, const StepData& step, P
     c.point[i] = pointRows(world, step, pair, i, leak);
     c.point[i].arm = c.point[i].arm - c.armA;
   }
+  noteImpacts(world, step, pair, c);
   return c;
 }
 

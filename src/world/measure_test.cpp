@@ -128,6 +128,7 @@ TEST(StateHash, SeesEveryFieldThatAStepChanges) {
       [](WorldData& d) { d.pairs[0].points[0].anchorB.y = 1; },
       [](WorldData& d) { d.pairs[0].points[0].feature = 1; },
       [](WorldData& d) { d.pairs[0].points[0].rebound = 1; },
+      [](WorldData& d) { d.pairs[0].points[0].impact = 1; },
       [](WorldData& d) { d.pairs[0].points[0].sticks = 1; },
       [](WorldData& d) { d.pairs[0].kept.what = KeptManifold::What::PointsOnB; },
       [](WorldData& d) { d.pairs[0].kept.aroundBase = true; },

@@ -19,6 +19,7 @@ struct PointMemory {
   Vec3 lambda;            ///< force of the last substep [N]: along the normal (>= 0), t1, t2
   Vec3 anchorA, anchorB;  ///< where it stuck: relative to the centre of mass, body axes
   float rebound = 0;      ///< [m/s] at which it left the other surface in the last step; 0: it did not
+  float impact = 0;       ///< [N] what of lambda.x stopped an approach in the last step: no guess for the next one
   uint8_t sticks = 0;     ///< it did not slip in the last step
 };
 

@@ -95,12 +95,13 @@ constexpr size_t kPairBytes = 768;
 // Bits of a point's head.
 constexpr uint32_t kOtherName = 1u << 2, kPushes = 1u << 3, kRebounds = 1u << 4, kOtherSticks = 1u << 5;
 constexpr int kPlaceAt = 6, kAnchorAt = 8;
-constexpr uint32_t kPointBits = (1u << 10) - 1;
+constexpr uint32_t kStopped = 1u << 10;
+constexpr uint32_t kPointBits = (1u << 11) - 1;
 
 void writePoint(std::byte*& to, const PairData& pair, int i, Expected& expected) {
   const ManifoldPoint& place = pair.manifold.points[i];
   const PointMemory& point = pair.points[i];
-  auto& [feature, lambda, anchorA, anchorB, rebound, sticks] = point;
+  auto& [feature, lambda, anchorA, anchorB, rebound, impact, sticks] = point;
   std::byte* const head = to;
   to += sizeof(uint16_t);
   const uint32_t name = place.feature ^ expected.feature;
@@ -111,6 +112,7 @@ void writePoint(std::byte*& to, const PairData& pair, int i, Expected& expected)
   if (feature != place.feature) bits |= kOtherName, put(to, feature);
   if (lambda != Vec3{} || !same(lambda, Vec3{})) bits |= kPushes, put(to, lambda);
   if (!same(rebound, 0.0f)) bits |= kRebounds, put(to, rebound);
+  if (!same(impact, 0.0f)) bits |= kStopped, put(to, impact);
   if (sticks != 1) bits |= kOtherSticks, put(to, sticks);
   put(to, place.separation);
   put(to, anchorA);
@@ -139,6 +141,7 @@ void readPoint(const std::byte*& from, PairData& pair, int i, Expected& expected
   if (bits & kOtherName) put(from, point.feature);
   if (bits & kPushes) put(from, point.lambda);
   if (bits & kRebounds) put(from, point.rebound);
+  if (bits & kStopped) put(from, point.impact);
   if (bits & kOtherSticks) put(from, point.sticks);
   put(from, place.separation);
   put(from, point.anchorA);

@@ -50,6 +50,7 @@ void add(Hash64& hash, const PointMemory& point) {
   hash.value(point.anchorA);
   hash.value(point.anchorB);
   hash.value(point.rebound);
+  hash.value(point.impact);
   hash.value(point.sticks);
 }
 
