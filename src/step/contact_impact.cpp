@@ -52,10 +52,10 @@ bool findClosing(const WorldData& world, const StepData& step, const PairData& p
 
 }  // namespace
 
-void forgetImpact(PointMemory& memory) {
+void takeImpact(PointMemory& memory) {
   if (memory.rebound > 0) memory.lambda = {};
   const float force = memory.lambda.x;
-  if (memory.impact > 0 && force > 0) memory.lambda = memory.lambda * (std::max(force - memory.impact, 0.0f) / force);
+  if (force > 0) memory.lambda = memory.lambda * (std::max(force - memory.impact, 0.0f) / force);
   memory.impact = 0;
 }
 

@@ -12,7 +12,11 @@
 namespace avbd {
 
 /// Takes from the force that a point remembers what was its impact.
-void forgetImpact(PointMemory& memory);
+void takeImpact(PointMemory& memory);
+/// The same, at no cost where there was none.
+inline void forgetImpact(PointMemory& memory) {
+  if (memory.rebound > 0 || memory.impact > 0) takeImpact(memory);
+}
 /// Remembers the impacts of the step that begins, of a pair whose rows stand.
 void noteImpacts(const WorldData& world, const StepData& step, PairData& pair, const rows::Contact<float>& contact);
 
