@@ -50,7 +50,7 @@ std::vector<Figure> dzhanibekov(const Settings& settings) {
     angle = std::max(angle, std::acos(std::min(1.0, dot(l, l0) / (length(l) * length(l0)))));
     loss = std::max(loss, std::abs(energy(model.world) / e0 - 1));
     const Vec3d up = rotate(model.world.pose(model.bodies[0].id).rotation, Vec3d{0, 1, 0});
-    turned = std::max(std::min(turned, up.y), -1.0);  // the rotation is a unit one but for rounding
+    turned = std::min(turned, up.y / length(up));  // a rotation of floats is a unit one but for their rounding
   }
   return {atMost("momentum_size", size, 5e-4, "relative"),
           atMost("momentum_direction", angle, 5e-4, "rad"),
