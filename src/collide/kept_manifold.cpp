@@ -30,6 +30,9 @@ Mat3 turnLess(Quat q) {
   return {{{-(yy + zz), xy - wz, xz + wy}, {xy + wz, -(xx + zz), yz - wx}, {xz - wy, yz + wx, -(xx + yy)}}};
 }
 
+/// By what a distance found anew may be shorter than a kept one [of the margin; of the bodies' sizes].
+constexpr float kOfMargin = 0.01f, kOfSizes = 1e-5f;
+
 /// Where the other body's centre is, as the base sees it.
 Vec3 offsetIn(const Mat3& frame, const NearPose& base, const NearPose& other) { return mulT(frame, other.p - base.p); }
 
@@ -73,7 +76,11 @@ Carry carry(const KeptManifold& kept, const NearPose& a, const NearPose& b, cons
   const Vec3 way = kept.aroundBase ? shift - mul(turn, kept.offset) : shift;
   const float moved = length(way) + 2 * length(Vec3{turned.x, turned.y, turned.z}) * kept.reach;
   const float clear = kept.clear - moved;
-  if (kept.what == What::Apart) return clear > limits.margin ? Carry::Apart : Carry::Anew;
+  if (kept.what == What::Apart) {
+    // Only where nothing would be found anew, whatever the rounding: then nobody can tell whether it was kept.
+    const float rounding = kOfMargin * limits.margin + kOfSizes * (kept.reach + length(out.offset));
+    return clear > limits.margin + rounding ? Carry::Apart : Carry::Anew;
+  }
   if (!(moved <= limits.allowed && clear >= limits.margin - limits.slack)) return Carry::Anew;
   const Points p{lane::loadUnaligned<Lanes>(kept.x), lane::loadUnaligned<Lanes>(kept.y),
                  lane::loadUnaligned<Lanes>(kept.z)};

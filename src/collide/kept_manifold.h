@@ -2,7 +2,8 @@
 // its points are carried along with the other body instead of being found anew.
 //
 // The points are places on the other body's surface, so heights over the face stay exact; only which places touch is as
-// old as the manifold. Where nothing touched, how far apart the two were says for how long nothing can.
+// old as the manifold. Where nothing touched, how far apart the two were says for how long nothing can: that only saves
+// time and is no state, as nothing would be found anew either.
 #pragma once
 
 #include <avbd/rows/math3.h>
@@ -26,6 +27,11 @@ struct KeptManifold {
   float x[kMaxManifoldPoints] = {}, y[kMaxManifoldPoints] = {}, z[kMaxManifoldPoints] = {};  ///< on the other body
   float height[kMaxManifoldPoints] = {};
 };
+
+/// Otherwise it is no state.
+inline bool keepsPoints(const KeptManifold& kept) {
+  return kept.what == KeptManifold::What::PointsOnA || kept.what == KeptManifold::What::PointsOnB;
+}
 
 /// A body as collision sees it.
 struct NearBody {

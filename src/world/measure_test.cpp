@@ -157,6 +157,9 @@ TEST(StateHash, DoesNotSeeWhatIsUnused) {
   data.pairs.insert(std::vector<PairData>(1));
   const uint64_t before = stateHash(data);
   data.pairs[0].points[3].feature = 9;
+  data.pairs[0].normal.x = 1;
+  data.pairs[0].kept.what = KeptManifold::What::Apart;
+  data.pairs[0].kept.clear = 1;
   data.report.seconds[0] = 1;
   data.def.workers = 7;
   data.def.simdWidth = 4;

@@ -65,6 +65,10 @@ struct alignas(64) PairData {
   PointMemory points[kMaxManifoldPoints];
   Vec3 turn;    ///< of A against B since its turning sticks [rad]: about the normal, t1, t2
   Vec3 torque;  ///< against turning in the last step [N m], likewise
+  /// Its manifold and its basis say something: of a pair that neither touches nor just did they are left-overs.
+  bool hasContact() const {
+    return pointCount > 0 || gonePoints > 0 || manifold.count > 0 || wasTouching || touching || hasSurface;
+  }
   uint64_t key() const { return uint64_t(shapeA) << 32 | shapeB; }
   ShapeId shapeId(int side) const { return {(side ? shapeB : shapeA) + 1, generation[side]}; }
   BodyId bodyId(int side) const { return {(side ? bodyB : bodyA) + 1, generation[2 + side]}; }

@@ -10,7 +10,7 @@
 
 namespace avbd {
 
-inline constexpr uint32_t kSnapshotVersion = 1;
+inline constexpr uint32_t kSnapshotVersion = 2;
 
 /// Everything that the next steps and calls depend on, but for what the user holds: hook, shared geometry, families.
 void saveSnapshot(const WorldData& data, SharedTable& table, snapshot::Writer& out);

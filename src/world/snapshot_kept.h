@@ -1,5 +1,6 @@
 // Snapshots: the manifold that a pair keeps (collide/kept_manifold.h), by what it differs from where its bodies and its
-// points are now. They have hardly moved since, so little is left to write.
+// points are now. They have hardly moved since, so little is left to write. That of bodies apart only saves time and is
+// left out.
 #pragma once
 
 #include <limits>
@@ -93,10 +94,9 @@ inline int keptPoints(const KeptManifold& kept) {
 inline void writeKept(std::byte*& to, const PairData& pair, const WorldData& data, const BodiesApart& bodies) {
   // All members by name: a new one does not compile before it is written here and read below.
   auto& [what, aroundBase, offset, turn, clear, reach, normal, x, y, z, height] = pair.kept;
-  if (what == KeptManifold::What::Nothing) return put(to, uint8_t{0});
+  if (!keepsPoints(pair.kept)) return put(to, uint8_t{0});
   const ExpectedKept expected(pair, what, bodies);
-  const bool hasPoints = what != KeptManifold::What::Apart;
-  const int count = hasPoints ? keptPoints(pair.kept) : 0;
+  const int count = keptPoints(pair.kept);
   const bool otherReach = !same(reach, reachOf(data, pair, pair.kept));
   const uint32_t head = static_cast<uint32_t>(what) | (aroundBase ? kAroundBase : 0u) |
                         (otherReach ? kOtherReach : 0u) | static_cast<uint32_t>(count) << kKeptCountAt;
@@ -108,9 +108,9 @@ inline void writeKept(std::byte*& to, const PairData& pair, const WorldData& dat
   uint32_t bits = putNear(to, offset, expected.offset);
   bits |= putNear(to, Vec3{turn.x, turn.y, turn.z}, Vec3{expected.turn.x, expected.turn.y, expected.turn.z}) << 2;
   bits |= putNear(to, turn.w, expected.turn.w) << 4;
-  if (hasPoints) bits |= putNear(to, normal, expected.normal) << 6;
+  bits |= putNear(to, normal, expected.normal) << 6;
   overwrite(ways, static_cast<uint8_t>(bits));
-  if (hasPoints) writeKeptPoints(to, pair.kept, count, expected);
+  writeKeptPoints(to, pair.kept, count, expected);
 }
 
 inline void readKeptPoints(const std::byte*& from, KeptManifold& kept, int count, const ExpectedKept& expected) {
@@ -131,8 +131,9 @@ inline void readKept(const std::byte*& from, PairData& pair, const WorldData& da
   put(from, head);
   const uint32_t what = head & 3u;
   const int count = head >> kKeptCountAt;
-  require(count <= (what > 1 ? kMaxManifoldPoints : 0) && (what != 0 || head == 0), "a manifold kept in no way");
-  if (what == 0) return;
+  if (head == 0) return;
+  require(what > static_cast<uint32_t>(KeptManifold::What::Apart) && count <= kMaxManifoldPoints,
+          "a manifold kept in no way");
   kept.what = static_cast<KeptManifold::What>(what);
   kept.aroundBase = (head & kAroundBase) != 0;
   const ExpectedKept expected(pair, kept.what, bodies);
@@ -145,7 +146,6 @@ inline void readKept(const std::byte*& from, PairData& pair, const WorldData& da
   putNear(from, turn, Vec3{expected.turn.x, expected.turn.y, expected.turn.z}, ways >> 2 & 3u);
   kept.turn = {0, turn.x, turn.y, turn.z};
   putNear(from, kept.turn.w, expected.turn.w, ways >> 4 & 3u);
-  if (what == static_cast<uint32_t>(KeptManifold::What::Apart)) return;
   putNear(from, kept.normal, expected.normal, ways >> 6 & 3u);
   readKeptPoints(from, kept, count, expected);
 }

@@ -204,6 +204,24 @@ void putOther(const std::byte*& from, uint32_t bits, uint32_t bit, T& now, const
     now = expected;
 }
 
+/// Of a pair that has a contact.
+void writeBasis(std::byte*& to, uint32_t& bits, const PairData& pair, Expected& expected) {
+  putNew(to, bits, kOrigin, pair.origin, expected.origin);
+  putOther(to, bits, kNormal, pair.normal, Vec3{});
+  putOther(to, bits, kManifoldNormal, pair.manifold.normal, pair.normal);
+  const Basis basis = basisOf(pair.normal);
+  if (!same(pair.t1, basis.t1) || !same(pair.t2, basis.t2)) bits |= kBasis, put(to, pair.t1), put(to, pair.t2);
+}
+
+void readBasis(const std::byte*& from, uint32_t bits, PairData& pair, Expected& expected) {
+  putNew(from, bits, kOrigin, pair.origin, expected.origin);
+  putOther(from, bits, kNormal, pair.normal, Vec3{});
+  putOther(from, bits, kManifoldNormal, pair.manifold.normal, pair.normal);
+  const Basis basis = basisOf(pair.normal);
+  pair.t1 = basis.t1, pair.t2 = basis.t2;
+  if (bits & kBasis) put(from, pair.t1), put(from, pair.t2);
+}
+
 void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expected& expected) {
   // All members by name, so that a new one does not compile before it is written here and read below.
   auto& [shapeA, shapeB, bodyA, bodyB, generation, patch, material, element, hasSurface, isTrigger, triggerIsA, reports,
@@ -224,11 +242,7 @@ void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expe
   putOther(to, bits, kPatch, patch, uint16_t{0});
   putNew(to, bits, kMaterial, material, expected.material);
   putOther(to, bits, kElement, element, kNoElement);
-  putNew(to, bits, kOrigin, origin, expected.origin);
-  putOther(to, bits, kNormal, normal, Vec3{});
-  putOther(to, bits, kManifoldNormal, manifold.normal, normal);
-  const Basis basis = basisOf(normal);
-  if (!same(t1, basis.t1) || !same(t2, basis.t2)) bits |= kBasis, put(to, t1), put(to, t2);
+  if (pair.hasContact()) writeBasis(to, bits, pair, expected);
   putNew(to, bits, kCoefficients, coefficientsOf(pair), expected.coefficients);
   putOther(to, bits, kTurn, turn, Vec3{});
   putOther(to, bits, kTorque, torque, Vec3{});
@@ -237,8 +251,8 @@ void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expe
   if (mean != kNone && mean != expected.mean) bits |= kOtherMean, put(to, mean);
   if (mean != kNone) expected.mean = mean + 1;
   const int count = pointsOf(pair);
-  if (count == 0) putOther(to, bits, kLastPoint, manifold.points[0].position, Vec3{});
-  if (count > 0 || kept.what != KeptManifold::What::Nothing) expected.touch(data);
+  if (count == 0 && pair.hasContact()) putOther(to, bits, kLastPoint, manifold.points[0].position, Vec3{});
+  if (count > 0 || keepsPoints(kept)) expected.touch(data);
   for (int i = 0; i < count; ++i) writePoint(to, pair, i, expected);
   writeKept(to, pair, data, expected.bodies);
   std::memcpy(head, &bits, sizeof(bits));
@@ -273,12 +287,8 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
   putOther(from, bits, kPatch, pair.patch, uint16_t{0});
   putNew(from, bits, kMaterial, pair.material, expected.material);
   putOther(from, bits, kElement, pair.element, kNoElement);
-  putNew(from, bits, kOrigin, pair.origin, expected.origin);
-  putOther(from, bits, kNormal, pair.normal, Vec3{});
-  putOther(from, bits, kManifoldNormal, pair.manifold.normal, pair.normal);
-  const Basis basis = basisOf(pair.normal);
-  pair.t1 = basis.t1, pair.t2 = basis.t2;
-  if (bits & kBasis) put(from, pair.t1), put(from, pair.t2);
+  pair.origin = {}, pair.normal = pair.manifold.normal = pair.t1 = pair.t2 = pair.manifold.points[0].position = Vec3{};
+  if (pair.hasContact()) readBasis(from, bits, pair, expected);
   Coefficients coefficients;
   putNew(from, bits, kCoefficients, coefficients, expected.coefficients);
   setCoefficients(pair, coefficients);
@@ -288,7 +298,7 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
   pair.mean = bits & kMean ? expected.mean : kNone;
   if (bits & kOtherMean) put(from, pair.mean);
   if (bits & kMean) expected.mean = pair.mean + 1;
-  if (count == 0) putOther(from, bits, kLastPoint, pair.manifold.points[0].position, Vec3{});
+  if (count == 0 && pair.hasContact()) putOther(from, bits, kLastPoint, pair.manifold.points[0].position, Vec3{});
   if (count > 0) expected.touch(data);
   for (int i = 0; i < count; ++i) readPoint(from, pair, i, expected);
   if (count == 0 && keepsManifold(from)) expected.touch(data);

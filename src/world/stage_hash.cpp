@@ -21,7 +21,7 @@ uint64_t contactsHash(const WorldData& data) {
   forEachPair(data, [&](const PairData& pair) {
     hash.value(pair.key());
     hash.value(pair.pointCount);
-    hash.value(pair.normal);
+    if (pair.hasContact()) hash.value(pair.normal);
     for (int i = 0; i < pair.pointCount; ++i) {
       const PointMemory& point = pair.points[i];
       const ManifoldPoint& place = pair.manifold.points[i];

@@ -55,14 +55,13 @@ void add(Hash64& hash, const PointMemory& point) {
 }
 
 void add(Hash64& hash, const KeptManifold& kept) {
-  hash.value(kept.what);
-  if (kept.what == KeptManifold::What::Nothing) return;
+  hash.value(keepsPoints(kept) ? kept.what : KeptManifold::What::Nothing);
+  if (!keepsPoints(kept)) return;
   hash.value(static_cast<uint8_t>(kept.aroundBase));
   hash.value(kept.offset);
   hash.value(kept.turn);
   hash.value(kept.clear);
   hash.value(kept.reach);
-  if (kept.what == KeptManifold::What::Apart) return;
   hash.value(kept.normal);
   hash.value(kept.x);
   hash.value(kept.y);
@@ -83,10 +82,11 @@ void add(Hash64& hash, const PairData& pair) {
     hash.value(pair.turn);
     hash.value(pair.torque);
   }
+  hash.value(pair.pointCount);
+  if (!pair.hasContact()) return;
   hash.value(pair.normal);
   hash.value(pair.t1);
   hash.value(pair.t2);
-  hash.value(pair.pointCount);
   hash.value(pair.slides);
   hash.value(static_cast<uint8_t>(pair.landedSliding));
   for (int i = 0; i < pair.pointCount; ++i) add(hash, pair.points[i]);
