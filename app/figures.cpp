@@ -40,7 +40,8 @@ void measureJoints(const World& world, RunFigures& f) {
 void Clockwork::add(double seconds, const StepReport& report) {
   milliseconds_.push_back(seconds * 1e3);
   seconds_ += seconds;
-  for (size_t i = 0; i < kStageCount; ++i) stages_[i] += report.seconds[i];
+  sharedRuns_ += report.sharedRuns;
+  for (size_t i = 0; i < kStageCount; ++i) stages_[i] += report.seconds[i], shared_[i] += report.sharedSeconds[i];
 }
 
 void Clockwork::put(RunFigures& figures) const {
@@ -49,7 +50,12 @@ void Clockwork::put(RunFigures& figures) const {
   figures.realtimeFactor = seconds_ > 0 ? static_cast<double>(figures.steps) * figures.dt / seconds_ : 0;
   double sum = 0;
   for (const double s : stages_) sum += s;
-  for (size_t i = 0; i < kStageCount; ++i) figures.stageShare[i] = sum > 0 ? stages_[i] / sum : 0;
+  if (!(sum > 0)) return;
+  for (size_t i = 0; i < kStageCount; ++i) {
+    figures.stageShare[i] = stages_[i] / sum;
+    figures.aloneShare[i] = (stages_[i] - shared_[i]) / sum;
+  }
+  figures.sharedRuns = static_cast<double>(sharedRuns_) / static_cast<double>(milliseconds_.size());
 }
 
 RunFigures measureRun(const Model& model, int64_t steps, double dt) {

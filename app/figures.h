@@ -34,6 +34,8 @@ struct RunFigures {
   uint32_t simdWidth = 0;
   Vec3d momentum, angularMomentum;
   std::array<double, kStageCount> stageShare{};  ///< of the time of all stages
+  std::array<double, kStageCount> aloneShare{};  ///< the same, in work that is not cut for several threads
+  double sharedRuns = 0;                         ///< a step
   std::vector<std::string> notes;                ///< of the file's reader
 };
 
@@ -46,7 +48,8 @@ class Clockwork {
  private:
   std::vector<double> milliseconds_;
   double seconds_ = 0;
-  std::array<double, kStageCount> stages_{};
+  uint64_t sharedRuns_ = 0;
+  std::array<double, kStageCount> stages_{}, shared_{};
 };
 
 /// All figures but those of the clock.

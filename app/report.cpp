@@ -26,15 +26,22 @@ std::string percent(double share) {
 }
 
 // Stages that cost something, the dearest first.
-std::string stagesText(const RunFigures& f) {
+std::string stagesText(const std::array<double, kStageCount>& share) {
   std::vector<size_t> order;
   for (size_t i = 0; i < kStageCount; ++i)
-    if (f.stageShare[i] >= 0.0005) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return f.stageShare[a] > f.stageShare[b]; });
+    if (share[i] >= 0.0005) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return share[a] > share[b]; });
   std::string text;
   for (const size_t i : order)
-    text += (text.empty() ? "" : ", ") + std::string(stageName(static_cast<Stage>(i))) + " " + percent(f.stageShare[i]);
+    text += (text.empty() ? "" : ", ") + std::string(stageName(static_cast<Stage>(i))) + " " + percent(share[i]);
   return text.empty() ? "-" : text;
+}
+
+// What more workers do not make shorter.
+std::string aloneText(const RunFigures& f) {
+  double all = 0;
+  for (const double share : f.aloneShare) all += share;
+  return percent(all) + ": " + stagesText(f.aloneShare) + "; " + number(f.sharedRuns) + " shared runs a step";
 }
 
 void addNotes(ReportLines& lines, const std::vector<std::string>& notes) {
@@ -67,7 +74,8 @@ ReportLines reportLines(const RunFigures& f) {
       {"workers", std::to_string(f.workers) + ", " + std::to_string(f.simdWidth) + " lanes"},
       {"time per step", number(f.msMedian) + " ms median, " + number(f.msP95) + " ms 95th percentile"},
       {"realtime factor", number(f.realtimeFactor)},
-      {"stages", stagesText(f)},
+      {"stages", stagesText(f.stageShare)},
+      {"not shared", aloneText(f)},
       {"penetration", millimetres(f.penetrationMax) + " max, " + millimetres(f.penetrationMean) + " mean"},
       {"joint gap", millimetres(f.jointGapMax) + ", " + milliradians(f.jointAngleMax) + " max"},
       {"beyond limits", millimetres(f.limitExcessMax) + ", " + milliradians(f.limitExcessAngleMax) + " max"},

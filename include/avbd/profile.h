@@ -40,7 +40,9 @@ struct StepReport {
   uint32_t fastBodies = 0;                    ///< moved so far in the last substep that their way was searched
   uint32_t impacts = 0;                       ///< found on those ways, each at its own time within the step
   uint32_t simdWidth = 0;                     ///< lanes used: 1, 4, 8 or 16
+  uint32_t sharedRuns = 0;                    ///< work that was cut for several threads, each with a wait for its end
   std::array<double, kStageCount> seconds{};  ///< wall time of each stage
+  std::array<double, kStageCount> sharedSeconds{};  ///< of that in work cut for several threads, few or many
 };
 
 }  // namespace avbd

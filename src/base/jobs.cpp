@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -24,6 +25,8 @@ namespace {
 /// Looks at the ticket before a thread sleeps: a millisecond or two, more than the stages between two that share work.
 /// To be woken takes some tens of microseconds, as long as a whole piece.
 constexpr int kSpins = 60000;
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void relax() {
 #if defined(__SSE2__)
@@ -172,10 +175,20 @@ void Jobs::askForHelp(uint32_t count) {
 }
 
 void Jobs::run(uint32_t count, FunctionRef<void(uint32_t, int)> f) {
-  if (workers_ == 1 || count == 1) {
-    for (uint32_t i = 0; i < count; ++i) f(i, 0);
+  if (count < 2) {
+    if (count == 1) f(0, 0);
     return;
   }
+  const double start = seconds();
+  if (workers_ == 1)
+    for (uint32_t i = 0; i < count; ++i) f(i, 0);
+  else
+    share(count, f);
+  ++sharedRuns_;
+  sharedSeconds_ += seconds() - start;
+}
+
+void Jobs::share(uint32_t count, FunctionRef<void(uint32_t, int)> f) {
   Shared& shared = *shared_;
   shared.piece = f;
   shared.ended.store(0, std::memory_order_relaxed);

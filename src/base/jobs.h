@@ -49,12 +49,18 @@ class Jobs {
     });
   }
 
+  /// How many runs of two pieces or more there were so far, each with a wait for the last of them, and the [s] of wall
+  /// time in them.
+  uint64_t sharedRuns() const { return sharedRuns_; }
+  double sharedSeconds() const { return sharedSeconds_; }
+
   /// Throws what the user's task system threw since the last call.
   void throwFailure();
 
  private:
   struct Shared;
   void askForHelp(uint32_t count);
+  void share(uint32_t count, FunctionRef<void(uint32_t, int)> f);
 
   int workers_;
   TaskSystem tasks_;
@@ -63,6 +69,8 @@ class Jobs {
   struct Threads;
   std::unique_ptr<Threads> threads_;
   std::exception_ptr failure_;
+  uint64_t sharedRuns_ = 0;
+  double sharedSeconds_ = 0;
 };
 
 }  // namespace avbd

@@ -20,6 +20,7 @@ float area(const Aabb& a) {
 }
 
 constexpr int kMostLopsided = 8;
+constexpr float kMostBeside = 2;  ///< of its own surface: what a shifted leaf may add to that of its sibling
 
 }  // namespace
 
@@ -44,6 +45,41 @@ void DynamicTree::move(int32_t proxy, const Aabb& box) {
   detach(proxy);
   at(proxy).box = box;
   attach(proxy);
+}
+
+/// Whether the leaf with another box still adds little to the surface of what is beside it. What rotations mend of a
+/// crowd that mixes is not enough.
+bool DynamicTree::fitsBeside(int32_t leaf, const Aabb& box) const {
+  const int32_t joint = at(leaf).parent;
+  if (joint < 0) return true;
+  const Aabb& beside = at(at(joint).child[at(joint).child[0] == leaf ? 1 : 0]).box;
+  return area(merge(beside, box)) - area(beside) <= kMostBeside * area(box);
+}
+
+void DynamicTree::shift(std::span<const Shift> leaves) {
+  for (const auto& [proxy, box] : leaves)
+    if (fitsBeside(proxy, box))
+      at(proxy).box = box;
+    else
+      move(proxy, box);
+  for (const auto& [proxy, box] : leaves)
+    for (int32_t i = at(proxy).parent; i >= 0 && !at(i).userData; i = at(i).parent) at(i).userData = 1;
+  refitMarked();
+}
+
+/// Children before their parents: the list is level by level, from its end.
+void DynamicTree::refitMarked() {
+  marked_.clear();
+  if (root_ >= 0 && at(root_).height > 0 && at(root_).userData) marked_.push_back(root_);
+  for (size_t k = 0; k < marked_.size(); ++k) {
+    at(marked_[k]).userData = 0;
+    for (const int32_t child : at(marked_[k]).child)
+      if (at(child).height > 0 && at(child).userData) marked_.push_back(child);
+  }
+  for (size_t k = marked_.size(); k-- > 0;) {
+    refit(marked_[k]);
+    rotate(marked_[k]);
+  }
 }
 
 int32_t DynamicTree::takeNode() {

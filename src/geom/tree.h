@@ -1,6 +1,7 @@
 // Dynamic tree of bounds (binary tree of fat boxes) for the broad phase and queries.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "geom/aabb.h"
@@ -37,7 +38,15 @@ class DynamicTree {
  public:
   int32_t insert(const Aabb& box, uint32_t userData);  ///< -> proxy
   void remove(int32_t proxy);
+  /// Inserts it anew.
   void move(int32_t proxy, const Aabb& box);
+  /// Gives many leaves new boxes. Those that leave what is beside them are inserted anew; the others stay where they
+  /// are, and what is above them is refitted and rotated, each node once.
+  struct Shift {
+    int32_t proxy;
+    Aabb box;
+  };
+  void shift(std::span<const Shift> leaves);
   const Aabb& box(int32_t proxy) const { return nodes_[static_cast<size_t>(proxy)].box; }
   uint32_t userData(int32_t proxy) const { return nodes_[static_cast<size_t>(proxy)].userData; }
   size_t size() const { return leafCount_; }
@@ -60,8 +69,8 @@ class DynamicTree {
     Aabb box;
     int32_t parent = -1;  ///< next free node while unused
     int32_t child[2] = {-1, -1};
-    int32_t height = 0;  ///< leaf 0, free -1
-    uint32_t userData = 0;
+    int32_t height = 0;     ///< leaf 0, free -1
+    uint32_t userData = 0;  ///< of inner nodes: to be refitted
   };
   const std::vector<Node>& nodes() const { return nodes_; }
   /// Index of the topmost node, -1 while the tree is empty.
@@ -96,6 +105,8 @@ class DynamicTree {
   int32_t bestSibling(const Aabb& box) const;
   void refit(int32_t i);
   void refitUpwards(int32_t i);
+  bool fitsBeside(int32_t leaf, const Aabb& box) const;
+  void refitMarked();
   void rotate(int32_t i);
   void exchange(int32_t parent, int side, int grandSide);
 
@@ -103,6 +114,7 @@ class DynamicTree {
   int32_t root_ = -1;
   int32_t free_ = -1;
   size_t leafCount_ = 0;
+  std::vector<int32_t> marked_;  ///< spare memory of shift()
 };
 
 /// Nodes still to visit: on the stack while they fit, beyond that on the heap.

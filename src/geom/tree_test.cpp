@@ -99,6 +99,66 @@ TEST(Tree, churnAgainstBruteForce) {
   EXPECT_EQ(tree.size(), 0u);
 }
 
+/// A crowd that drifts, a few at a time, some of them far.
+struct Crowd {
+  std::mt19937 random{7};
+  std::uniform_real_distribution<float> place{-20, 20}, drift{-0.5f, 0.5f};
+  DynamicTree tree;
+  std::vector<int32_t> proxies;
+  std::vector<Vec3> centers;
+  explicit Crowd(uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i) {
+      centers.push_back({place(random), place(random), place(random)});
+      proxies.push_back(tree.insert(cube(centers[i], 1), i));
+    }
+  }
+  Vec3 any(std::uniform_real_distribution<float>& of) { return {of(random), of(random), of(random)}; }
+  void shift() {
+    std::vector<DynamicTree::Shift> shifts;
+    for (size_t i = random() % 3; i < centers.size(); i += 1 + random() % 5) {
+      centers[i] = random() % 50 == 0 ? any(place) : centers[i] + any(drift);
+      shifts.push_back({proxies[i], cube(centers[i], 1)});
+    }
+    tree.shift(shifts);
+  }
+  double surface() const {
+    double sum = 0;
+    for (const DynamicTree::Node& node : tree.nodes()) {
+      const Vec3 e = node.box.upper - node.box.lower;
+      if (node.height > 0) sum += double{e.x * e.y + e.y * e.z + e.z * e.x};
+    }
+    return sum;
+  }
+};
+
+TEST(Tree, shiftedLeavesAreFoundWhereTheyAre) {
+  Crowd crowd(300);
+  for (int round = 0; round < 500; ++round) {
+    crowd.shift();
+    expectSound(crowd.tree);
+    const Aabb box = cube(crowd.any(crowd.place), 5);
+    std::vector<uint32_t> found = find(crowd.tree, box), expected;
+    for (uint32_t i = 0; i < crowd.centers.size(); ++i)
+      if (overlaps(cube(crowd.centers[i], 1), box)) expected.push_back(i);
+    std::sort(found.begin(), found.end());
+    ASSERT_EQ(found, expected);
+  }
+  Crowd one(0);
+  one.tree.shift({});
+  one.tree.shift(std::vector<DynamicTree::Shift>{{one.tree.insert(cube({}, 1), 3), cube({9, 0, 0}, 1)}});
+  EXPECT_EQ(find(one.tree, cube({9, 0, 0}, 1)), std::vector<uint32_t>{3});
+}
+
+TEST(Tree, shiftingKeepsItAsGoodAsANewOne) {
+  Crowd crowd(1000);
+  for (int round = 0; round < 1000; ++round) crowd.shift();
+  DynamicTree fresh;
+  for (uint32_t i = 0; i < crowd.centers.size(); ++i) fresh.insert(cube(crowd.centers[i], 1), i);
+  const double shifted = crowd.surface();
+  crowd.tree = fresh;
+  EXPECT_LT(shifted, 1.3 * crowd.surface());
+}
+
 TEST(Tree, sameCallsGiveTheSameTree) {
   DynamicTree trees[2];
   std::vector<uint32_t> found[2];
@@ -109,6 +169,9 @@ TEST(Tree, sameCallsGiveTheSameTree) {
     for (uint32_t i = 0; i < 500; ++i)
       proxies.push_back(trees[t].insert(cube({place(random), place(random), place(random)}, 1), i));
     for (size_t i = 0; i < 500; i += 3) trees[t].move(proxies[i], cube({place(random), 0, 0}, 1));
+    std::vector<DynamicTree::Shift> shifts;
+    for (size_t i = 0; i < 500; i += 2) shifts.push_back({proxies[i], cube({place(random), place(random), 0}, 2)});
+    trees[t].shift(shifts);
     for (size_t i = 0; i < 500; i += 5) trees[t].remove(proxies[i]);
     found[t] = find(trees[t], cube({}, 10));
   }

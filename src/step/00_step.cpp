@@ -22,9 +22,11 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 void run(Stage stage, void (*f)(WorldData&, StepData&), WorldData& world, StepData& step) {
   AVBD_ZONE(stageName(stage));
-  const double start = now();
+  const auto i = static_cast<size_t>(stage);
+  const double start = now(), shared = step.jobs->sharedSeconds();
   f(world, step);
-  world.report.seconds[static_cast<size_t>(stage)] += now() - start;
+  world.report.seconds[i] += now() - start;
+  world.report.sharedSeconds[i] += step.jobs->sharedSeconds() - shared;
 }
 
 }  // namespace
@@ -71,7 +73,8 @@ void Stepper::step(WorldData& world, float dt) {
   const FloatMode mode;
   if (!jobs_) jobs_ = std::make_unique<Jobs>(std::max(world.def.workers, kShareAll ? 3 : 1), world.def.tasks);
   step.jobs = jobs_.get();
-  world.report.seconds = {};
+  world.report.seconds = world.report.sharedSeconds = {};
+  const uint64_t runs = jobs_->sharedRuns();
   world.report.fastBodies = world.report.impacts = 0;
   rememberAwake(world, step);
   chooseSettings(world, step, dt / static_cast<float>(world.def.substeps));
@@ -90,6 +93,7 @@ void Stepper::step(WorldData& world, float dt) {
   if (world.breakable > 0) breakJoints(world);
   world.time += dt;
   ++world.report.step;
+  world.report.sharedRuns = static_cast<uint32_t>(jobs_->sharedRuns() - runs);
   jobs_->throwFailure();
 }
 

@@ -41,11 +41,29 @@ bool leaves(const WorldData& world, const StepData& step, const BodyData& body, 
   return !contains(world.tree.box(shape.proxy), sweptBounds(body, shape, step.h, margin));
 }
 
-void refit(WorldData& world, StepData& step, uint32_t slot) {
-  const ShapeData& shape = world.shapes[slot];
+/// Gives the shapes step.moved[begin ...] new fat bounds.
+void refit(WorldData& world, StepData& step, size_t begin) {
   const float margin = (kSpeculative + kFatMargin) * world.def.lengthUnit;
-  world.tree.move(shape.proxy, sweptBounds(world.bodies[shape.body], shape, 2 * step.h, margin));
-  step.moved.push_back(slot);
+  step.shifts.resize(step.moved.size() - begin);
+  step.jobs->forRange(static_cast<uint32_t>(step.shifts.size()), 64, [&](uint32_t from, uint32_t to, int) {
+    for (uint32_t i = from; i < to; ++i) {
+      const ShapeData& shape = world.shapes[step.moved[begin + i]];
+      step.shifts[i] = {shape.proxy, sweptBounds(world.bodies[shape.body], shape, 2 * step.h, margin)};
+    }
+  });
+  world.tree.shift(step.shifts);
+}
+
+/// Shapes that were made or set to another place, or that wake.
+void refitUnpaired(WorldData& world, StepData& step) {
+  for (const uint32_t slot : world.unpaired) {
+    if (slot >= world.shapes.size() || world.shapes[slot].proxy < 0) continue;
+    // What sleeps looks for its pairs when it wakes.
+    const uint32_t body = world.shapes[slot].body;
+    if (!isDynamic(world, body) || isAwake(world, body)) step.moved.push_back(slot);
+  }
+  world.unpaired.clear();
+  refit(world, step, 0);
 }
 
 /// Shapes of bodies that are awake and leave their bounds, in the order of the bodies.
@@ -61,21 +79,17 @@ void refitAwake(WorldData& world, StepData& step) {
       forShapes(
           i, [&](const BodyData& body, uint32_t s) { step.leaving[s] = leaves(world, step, body, world.shapes[s]); });
   });
+  const size_t before = step.moved.size();
   for (uint32_t i = 0; i < awake.size(); ++i)
     forShapes(i, [&](const BodyData&, uint32_t s) {
-      if (step.leaving[s]) refit(world, step, s);
+      if (step.leaving[s]) step.moved.push_back(s);
     });
+  refit(world, step, before);
 }
 
 void refitMoved(WorldData& world, StepData& step) {
   step.moved.clear();
-  for (const uint32_t slot : world.unpaired) {
-    if (slot >= world.shapes.size() || world.shapes[slot].proxy < 0) continue;
-    // What sleeps looks for its pairs when it wakes.
-    const uint32_t body = world.shapes[slot].body;
-    if (!isDynamic(world, body) || isAwake(world, body)) refit(world, step, slot);
-  }
-  world.unpaired.clear();
+  refitUnpaired(world, step);
   refitAwake(world, step);
 }
 
@@ -131,7 +145,9 @@ void dropParted(WorldData& world, StepData& step) {
 
 /// New pairs to their places; a run stays together.
 void addNew(WorldData& world, const StepData& step) {
-  world.pairs.insert(step.newKeys, [&](PairData& pair, uint64_t key) { beginPair(world, pair, key); });
+  world.pairs.insert(
+      step.newKeys, [&](PairData& pair, uint64_t key) { beginPair(world, pair, key); }, *step.jobs);
+  world.pairs.sortStrayed(*step.jobs);
 }
 
 }  // namespace

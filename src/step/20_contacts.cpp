@@ -59,7 +59,7 @@ void findManifolds(WorldData& world, StepData& step) {
       PairData& pair = world.pairs[i];
       if (step.substep == 0) pair.touching = pair.touchBegins = false;
       findManifold(world, step, pair);
-      step.found[i] = foundContact(pair);
+      step.found[i] = foundContact(world, pair);
       world.pairs.setTouches(i, pair.pointCount > 0);
     }
   };
@@ -83,14 +83,14 @@ void findOther(WorldData& world, StepData& step, size_t i) {
   if (pair.isTrigger) {
     pair.touching = pair.touching || overlaps(world, step, pair);
     if (pair.touching != pair.wasTouching) step.touchChanges.push_back(pair.key());
-    step.found[i] = foundContact(pair);
+    step.found[i] = foundContact(world, pair);
     return;
   }
   const size_t end = world.pairs.endOfRun(i);
   findPatches(world, step, i, end);
   bool anyPoints = false;
   for (size_t k = i; k < end; ++k) {
-    step.found[k] = foundContact(world.pairs[k]);
+    step.found[k] = foundContact(world, world.pairs[k]);
     anyPoints = anyPoints || step.found[k].points > 0;
   }
   if (pair.wasTouching && !anyPoints) step.touchChanges.push_back(pair.key());
@@ -111,7 +111,7 @@ void findRest(WorldData& world, StepData& step, size_t begin, size_t end) {
 /// Fills step.found anew, where the list of pairs has changed.
 void noteAll(const WorldData& world, StepData& step) {
   step.found.resize(world.pairs.size());
-  for (size_t i = 0; i < step.found.size(); ++i) step.found[i] = foundContact(world.pairs[i]);
+  for (size_t i = 0; i < step.found.size(); ++i) step.found[i] = foundContact(world, world.pairs[i]);
 }
 
 /// Patches for which there was no place in their runs.
@@ -128,7 +128,7 @@ void findWoken(WorldData& world, StepData& step) {
   for (const uint32_t i : step.wokenPairs) {
     if (world.pairs.isConvex(i)) {
       findManifold(world, step, world.pairs[i]);
-      step.found[i] = foundContact(world.pairs[i]);
+      step.found[i] = foundContact(world, world.pairs[i]);
     }
     findRest(world, step, i, i + 1);
   }

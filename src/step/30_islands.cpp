@@ -21,12 +21,23 @@ void join(std::vector<uint32_t>& parent, uint32_t a, uint32_t b) {
   if (b < a) parent[a] = b;
 }
 
+/// Pairs with points, in order. Without a branch, as which ones have some nobody can foresee.
+void listTouching(StepData& step) {
+  const auto count = static_cast<uint32_t>(step.found.size());
+  step.touching.resize(count);
+  uint32_t size = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    step.touching[size] = i;
+    size += step.found[i].points > 0;
+  }
+  step.touching.resize(size);
+}
+
 void joinBodies(const WorldData& world, StepData& step) {
   step.parent.resize(world.bodies.size());
   for (const uint32_t slot : world.sleep.awake) step.parent[slot] = slot;
-  for (const FoundContact& found : step.found)
-    if (found.points > 0 && isDynamic(world, found.bodyA) && isDynamic(world, found.bodyB))
-      join(step.parent, found.bodyA, found.bodyB);
+  for (const uint32_t i : step.touching)
+    if (step.found[i].isBetweenDynamic()) join(step.parent, step.found[i].bodyA, step.found[i].bodyB);
   for (const uint32_t slot : world.sleep.joints) {
     if (!acts(world, slot)) continue;
     uint32_t first = kNone;
@@ -86,19 +97,17 @@ uint32_t islandOfJoint(const WorldData& world, const StepData& step, uint32_t sl
   return island;
 }
 
-void listPairs(const WorldData& world, StepData& step) {
-  for (const FoundContact& found : step.found) {
-    if (found.points == 0) continue;
-    Island& island = step.islands[islandOfPair(step, found)];
+void listPairs(StepData& step) {
+  for (const uint32_t i : step.touching) {
+    Island& island = step.islands[islandOfPair(step, step.found[i])];
     ++island.pairCount;
-    if (!isDynamic(world, found.bodyA) || !isDynamic(world, found.bodyB)) island.floating = false;
+    if (!step.found[i].isBetweenDynamic()) island.floating = false;
   }
   // Where a contact gives one body more than it takes from the other, momentum is not kept.
   for (const ContactChange& change : step.changes)
     if (change.scaleA != change.scaleB) step.islands[islandOfPair(step, step.found[change.pair])].floating = false;
   step.islandPairs.resize(layOut(step.islands, &Island::pairBegin, &Island::pairCount));
-  for (uint32_t i = 0; i < step.found.size(); ++i) {
-    if (step.found[i].points == 0) continue;
+  for (const uint32_t i : step.touching) {
     Island& island = step.islands[islandOfPair(step, step.found[i])];
     step.islandPairs[island.pairBegin + island.pairCount++] = i;
   }
@@ -127,9 +136,10 @@ void listJoints(const WorldData& world, StepData& step) {
 }  // namespace
 
 void findIslands(WorldData& world, StepData& step) {
+  listTouching(step);
   joinBodies(world, step);
   listBodies(world, step);
-  listPairs(world, step);
+  listPairs(step);
   listJoints(world, step);
   world.report.bodies = static_cast<uint32_t>(step.order.size());
   world.report.islands = static_cast<uint32_t>(step.islands.size());

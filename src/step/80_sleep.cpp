@@ -26,7 +26,7 @@ bool moves(const WorldData& world, uint32_t body) {
 bool isCarried(const WorldData& world, const StepData& step, const Island& island) {
   for (uint32_t i = 0; i < island.pairCount; ++i) {
     const FoundContact& pair = step.found[step.islandPairs[island.pairBegin + i]];
-    if (moves(world, pair.bodyA) || moves(world, pair.bodyB)) return true;
+    if (pair.hasKinematic() && (moves(world, pair.bodyA) || moves(world, pair.bodyB))) return true;
   }
   bool carried = false;
   for (uint32_t i = 0; i < island.jointCount && !carried; ++i)

@@ -124,8 +124,12 @@ const ContactChange& changeOf(const StepData& step, uint32_t pair) {
 }
 
 uint32_t rowInBatch(const WorldData& world, StepData& step, BatchRange& batch, uint32_t body) {
-  if (body == kNone || world.bodies[body].type == BodyType::Static) return batch.bodies;
-  if (world.bodies[body].type == BodyType::Dynamic) return step.rowOf[body];
+  return rowInBatch(step, batch, body, body == kNone ? BodyType::Static : world.bodies[body].type);
+}
+
+uint32_t rowInBatch(StepData& step, BatchRange& batch, uint32_t body, BodyType type) {
+  if (type == BodyType::Static) return batch.bodies;
+  if (type == BodyType::Dynamic) return step.rowOf[body];
   if (step.kinematicBatch[body] != step.batches.size()) {
     step.kinematicBatch[body] = static_cast<uint32_t>(step.batches.size());
     step.rowOf[body] = batch.rows++;
@@ -156,7 +160,7 @@ void layOutBatches(const WorldData& world, StepData& step) {
     for (; fits(); ++island, ++batch.islandCount) bodies += step.islands[island].bodyCount;
     addBodies(world, step, batch);
     addChunks(step, batch);
-    addContacts(world, step, batch);
+    addContacts(step, batch);
     addFull(world, step, batch);
     addJoints(world, step, batch);
     batch.rows = roundUp(batch.rows);

@@ -15,18 +15,9 @@ uint32_t chunkRows(const BatchRange& batch) {
   return std::max(kChunkRows, roundUp((batch.bodies + kMostChunks - 1) / kMostChunks));
 }
 
-/// Chunk of a row that belongs to a dynamic body, or that stands for what is static in one.
-uint32_t chunkOf(const BatchRange& batch, uint32_t row) {
-  return std::min(row / chunkRows(batch), batch.chunkCount - 1);
-}
-
 /// The first of the chunks' static rows. Several chunks have them beyond the tile of the last body, which belongs to
 /// the last chunk alone.
 uint32_t staticRow(const BatchRange& batch) { return batch.chunkCount > 1 ? roundUp(batch.bodies) : batch.bodies; }
-
-bool isKinematic(const WorldData& world, const FoundContact& pair) {
-  return world.bodies[pair.bodyA].type == BodyType::Kinematic || world.bodies[pair.bodyB].type == BodyType::Kinematic;
-}
 
 /// Index of the seam between two chunks, which is new if need be.
 uint32_t seamBetween(ChunkScratch& scratch, uint32_t chunks, uint32_t a, uint32_t b) {
@@ -40,18 +31,19 @@ uint32_t seamBetween(ChunkScratch& scratch, uint32_t chunks, uint32_t a, uint32_
 }
 
 /// Where static things are concerned a chunk has its own row for them.
-void placePair(const WorldData& world, StepData& step, BatchRange& batch, uint32_t index) {
+void placePair(StepData& step, BatchRange& batch, uint32_t index) {
   const FoundContact& pair = step.found[index];
   ChunkScratch& scratch = step.chunking;
-  PlacedPair placed{index, rowInBatch(world, step, batch, pair.bodyA), rowInBatch(world, step, batch, pair.bodyB)};
+  PlacedPair placed{index, rowInBatch(step, batch, pair.bodyA, pair.typeA),
+                    rowInBatch(step, batch, pair.bodyB, pair.typeB)};
   const uint32_t chunks = batch.chunkCount;
   if (chunks > 1) {
     const bool dynamicA = placed.rowA < batch.bodies, dynamicB = placed.rowB < batch.bodies;
-    const uint32_t a = chunkOf(batch, dynamicA ? placed.rowA : placed.rowB);
-    const uint32_t b = chunkOf(batch, dynamicB ? placed.rowB : placed.rowA);
+    const uint32_t a = scratch.chunkOf[dynamicA ? placed.rowA : placed.rowB];
+    const uint32_t b = scratch.chunkOf[dynamicB ? placed.rowB : placed.rowA];
     if (placed.rowA == batch.bodies) placed.rowA = staticRow(batch) + a;
     if (placed.rowB == batch.bodies) placed.rowB = staticRow(batch) + b;
-    placed.bucket = isKinematic(world, pair) ? kNone : a == b ? a : chunks + seamBetween(scratch, chunks, a, b);
+    placed.bucket = pair.hasKinematic() ? kNone : a == b ? a : chunks + seamBetween(scratch, chunks, a, b);
   }
   scratch.pairs.push_back(placed);
 }
@@ -134,12 +126,17 @@ void addChunks(StepData& step, BatchRange& batch) {
   batch.chunkCount = 1;
   // A rest of less than half a chunk goes to the last one.
   if (batch.bodies >= kChunkedBodies) batch.chunkCount = std::max(1u, (batch.bodies + rows / 2) / rows);
-  for (uint32_t i = 0; i < batch.chunkCount; ++i)
-    step.chunks.push_back({{i * rows, i + 1 < batch.chunkCount ? (i + 1) * rows : batch.bodies}, {}});
+  step.chunking.chunkOf.resize(batch.bodies);
+  for (uint32_t i = 0; i < batch.chunkCount; ++i) {
+    const Slice slice{i * rows, i + 1 < batch.chunkCount ? (i + 1) * rows : batch.bodies};
+    step.chunks.push_back({slice, {}});
+    std::fill(step.chunking.chunkOf.begin() + slice.begin, step.chunking.chunkOf.begin() + slice.end,
+              static_cast<uint8_t>(i));
+  }
   batch.rows = staticRow(batch) + batch.chunkCount;
 }
 
-void addContacts(const WorldData& world, StepData& step, BatchRange& batch) {
+void addContacts(StepData& step, BatchRange& batch) {
   ChunkScratch& scratch = step.chunking;
   const uint32_t chunks = batch.chunkCount;
   scratch.pairs.clear(), scratch.seams.clear();
@@ -148,7 +145,7 @@ void addContacts(const WorldData& world, StepData& step, BatchRange& batch) {
     const Island& island = step.islands[batch.islandBegin + n];
     for (uint32_t i = 0; i < island.pairCount; ++i) {
       const uint32_t pair = step.islandPairs[island.pairBegin + i];
-      if (!step.found[pair].isFull) placePair(world, step, batch, pair);
+      if (!step.found[pair].isFull) placePair(step, batch, pair);
     }
   }
   sortSeams(scratch, chunks);

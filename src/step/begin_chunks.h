@@ -17,6 +17,6 @@ inline void padLanes(std::vector<uint32_t>& lanes, uint32_t value) {
 /// Cuts the batch's bodies into chunks; after this its rows are counted, but for kinematic ones.
 void addChunks(StepData& step, BatchRange& batch);
 /// Gives every contact a lane: chunk by chunk, then seam by seam.
-void addContacts(const WorldData& world, StepData& step, BatchRange& batch);
+void addContacts(StepData& step, BatchRange& batch);
 
 }  // namespace avbd

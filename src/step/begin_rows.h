@@ -51,6 +51,7 @@ void fillLinkedJoints(const WorldData& world, StepData& step);  ///< after the s
 
 /// Body row that a joint or pair names in its batch.
 uint32_t rowInBatch(const WorldData& world, StepData& step, BatchRange& batch, uint32_t body);
+uint32_t rowInBatch(StepData& step, BatchRange& batch, uint32_t body, BodyType type);
 /// Chooses which joints of a batch its exact trees hold; the others get lanes of their own.
 void plantForest(const WorldData& world, StepData& step, BatchRange& batch);
 /// Finds the islands whose joints' loops no factor can hold, and takes their joints from the trees: of a net a tree is

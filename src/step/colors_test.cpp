@@ -28,7 +28,7 @@ struct Graph {
     PairData pair;
     pair.bodyA = a, pair.bodyB = b;
     world.pairs.insert({&pair, 1});
-    step.found.push_back(foundContact(pair));
+    step.found.push_back(foundContact(world, pair));
   }
   void addJoint(JointType type, std::initializer_list<uint32_t> bodies) {
     step.islandJoints.push_back(static_cast<uint32_t>(world.joints.size()));

@@ -92,12 +92,12 @@ void askHook(WorldData& world, StepData& step) {
       world.report.points -= static_cast<uint32_t>(pair.pointCount);
       forgetContact(world, step, pair);
       step.touchChanges.push_back(pair.key());
-      step.found[i] = foundContact(pair);
+      step.found[i] = foundContact(world, pair);
       continue;
     }
     checkPlan(plan, world.def.lengthUnit);
     obey(world, step, i, pair, plan);
-    step.found[i] = foundContact(pair);
+    step.found[i] = foundContact(world, pair);
   }
 }
 

@@ -56,8 +56,8 @@ void listWoken(WorldData& world, StepData& step, size_t begin) {
 
 /// Whether a kinematic body may pass through the other in one step, so that it has to be awake to be taken along.
 bool maySweep(const WorldData& world, const StepData& step, const FoundContact& pair) {
+  if (!pair.hasKinematic()) return false;
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
-  if (a.type != BodyType::Kinematic && b.type != BodyType::Kinematic) return false;
   const BodyData &moves = a.type == BodyType::Kinematic ? a : b, &rests = a.type == BodyType::Kinematic ? b : a;
   const float way = (length(moves.linearVelocity) + length(moves.angularVelocity) * moves.radius) * step.h;
   return way > rests.minExtent;

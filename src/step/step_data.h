@@ -63,6 +63,7 @@ struct PlacedPair {
 /// What finding the chunks' and seams' contacts needs.
 struct ChunkScratch {
   std::vector<PlacedPair> pairs;
+  std::vector<uint8_t> chunkOf;  ///< by row of a dynamic body
   std::vector<uint32_t> seamOf;  ///< by two chunks, the lower one first: index in `seams`
   struct Between {
     uint32_t low = 0, high = 0, color = 0;
@@ -145,17 +146,26 @@ struct OldPoint {
   Vec3 mean;  ///< as in WorldData::means, after the first substep
 };
 
-/// What later stages need of all pairs, without their records.
+/// What later stages need of all pairs, without the records of pairs and bodies.
 struct FoundContact {
   uint32_t bodyA = 0, bodyB = 0;  ///< slots
   uint8_t points = 0;
-  bool isFull = false;
-  bool bounces = false;  ///< has restitution
-  bool ends = false;     ///< touched in the last step, and has no points any more
+  BodyType typeA = BodyType::Static, typeB = BodyType::Static;
+  bool isFull : 1 = false;
+  bool bounces : 1 = false;  ///< has restitution
+  bool ends : 1 = false;     ///< touched in the last step, and has no points any more
+  bool isBetweenDynamic() const { return typeA == BodyType::Dynamic && typeB == BodyType::Dynamic; }
+  bool hasKinematic() const { return typeA == BodyType::Kinematic || typeB == BodyType::Kinematic; }
 };
-inline FoundContact foundContact(const PairData& pair) {
-  return {pair.bodyA,  pair.bodyB,           static_cast<uint8_t>(pair.pointCount),
-          pair.isFull, pair.restitution > 0, pair.wasTouching && pair.pointCount == 0};
+inline FoundContact foundContact(const WorldData& world, const PairData& pair) {
+  return {pair.bodyA,
+          pair.bodyB,
+          static_cast<uint8_t>(pair.pointCount),
+          world.bodies[pair.bodyA].type,
+          world.bodies[pair.bodyB].type,
+          pair.isFull,
+          pair.restitution > 0,
+          pair.wasTouching && pair.pointCount == 0};
 }
 
 /// What the contact hook wants of a contact beyond its coefficients.
@@ -226,6 +236,7 @@ struct StepData {
 
   // 10_pairs
   std::vector<uint32_t> moved;                ///< shapes that left their fat bounds
+  std::vector<DynamicTree::Shift> shifts;     ///< of those in `moved`
   std::vector<uint8_t> isMoved;               ///< by shape slot
   std::vector<uint8_t> leaving;               ///< by shape slot, of bodies that are awake: it leaves its fat bounds
   std::vector<std::vector<uint64_t>> keysOf;  ///< by piece of `moved`: new keys that it finds
@@ -249,6 +260,7 @@ struct StepData {
   std::vector<uint32_t> wokenPairs;    ///< indices of the first entries of their pairs
 
   // 30_islands
+  std::vector<uint32_t> touching;  ///< pairs with points
   std::vector<uint32_t> parent;    ///< union-find, by body slot
   std::vector<uint32_t> islandOf;  ///< by body slot
   std::vector<uint32_t> order;     ///< dynamic body slots, island by island

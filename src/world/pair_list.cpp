@@ -13,14 +13,14 @@ size_t PairList::lowerBound(uint64_t key) const {
 
 void PairList::clear() {
   order_.clear();
-  records_.clear();
+  records_.resize(0);
   free_.clear();
   strayed_ = 0;
 }
 
 uint32_t PairList::takeRecord() {
   if (free_.empty()) {
-    records_.emplace_back();
+    records_.resize(records_.size() + 1);
     return static_cast<uint32_t>(records_.size() - 1);
   }
   const uint32_t record = free_.back();
@@ -44,18 +44,20 @@ void PairList::add(std::span<const Entry> entries) {
   insertSorted(
       order_, entries.size(), [&](const Entry& entry, size_t i) { return entry.key > entries[i].key; },
       [&](size_t i) { return entries[i]; });
-  if (strayed_ > order_.size() / kMostStrayed) sortRecords();
 }
 
-void PairList::sortRecords() {
-  spare_.reserve(records_.capacity());
-  for (size_t i = 0; i < order_.size(); ++i) {
-    prefetch(i + kAhead);
-    spare_.push_back(records_[order_[i].record]);
-    order_[i].record = static_cast<uint32_t>(i);
-  }
+void PairList::sortStrayed(Jobs& jobs) {
+  if (strayed_ <= order_.size() / kMostStrayed) return;
+  spare_.resize(order_.size());
+  jobs.forRange(static_cast<uint32_t>(order_.size()), 256, [&](uint32_t begin, uint32_t end, int) {
+    for (uint32_t i = begin; i < end; ++i) {
+      prefetch(i + kAhead);
+      spare_[i] = records_[order_[i].record];
+    }
+  });
+  for (uint32_t i = 0; i < order_.size(); ++i) order_[i].record = i;
   records_.swap(spare_);
-  spare_.clear();  // so that a copy of the list has each record once
+  spare_.resize(0);  // so that a copy of the list has each record once
   free_.clear();
   strayed_ = 0;
 }

@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "base/insert_sorted.h"
-#include "world/pair_data.h"
+#include "base/jobs.h"
+#include "world/pair_records.h"
 
 namespace avbd {
 
@@ -26,7 +27,7 @@ class PairList {
 
   size_t size() const { return order_.size(); }
   bool empty() const { return order_.empty(); }
-  /// A record stays valid until pairs are added.
+  /// A record stays valid until pairs are taken out or put in order.
   PairData& operator[](size_t i) { return records_[order_[i].record]; }
   const PairData& operator[](size_t i) const { return records_[order_[i].record]; }
   inline iterator begin();
@@ -72,12 +73,15 @@ class PairList {
   void assign(size_t count, Fill&& fill);
   /// New pairs, ascending by key, to their places: behind those of the same key.
   void insert(std::span<const PairData> pairs);
-  /// New pairs of these keys, ascending, none of which is there yet: fill(pair, key) makes each out of a fresh one.
+  /// New pairs of these keys, ascending, none of which is there yet: fill(pair, key) makes each out of a fresh one, on
+  /// any thread of the jobs.
   template <class Fill>
-  void insert(std::span<const uint64_t> keys, Fill&& fill);
+  void insert(std::span<const uint64_t> keys, Fill&& fill, Jobs& jobs);
   /// Takes out the pairs of which is(i) holds. It is asked once for each in order, and finds all from i on in place.
   template <class Is>
   void eraseIf(Is&& is);
+  /// Puts the records in order where too many are out of it.
+  void sortStrayed(Jobs& jobs);
 
  private:
   static constexpr size_t kCacheLine = 64, kLinesApart = 2;
@@ -92,10 +96,9 @@ class PairList {
   }
   uint32_t takeRecord();
   void add(std::span<const Entry> entries);
-  void sortRecords();
 
   std::vector<Entry> order_;
-  std::vector<PairData> records_, spare_;
+  PairRecords records_, spare_;
   std::vector<uint32_t> free_;  ///< of the records
   std::vector<Entry> fresh_;
   size_t strayed_ = 0;  ///< how many records were taken out of order
@@ -114,14 +117,17 @@ void PairList::assign(size_t count, Fill&& fill) {
 }
 
 template <class Fill>
-void PairList::insert(std::span<const uint64_t> keys, Fill&& fill) {
-  fresh_.clear();
-  for (const uint64_t key : keys) {
-    const uint32_t record = takeRecord();
-    records_[record] = PairData{};
-    fill(records_[record], key);
-    fresh_.push_back(entryOf(records_[record], record));
-  }
+void PairList::insert(std::span<const uint64_t> keys, Fill&& fill, Jobs& jobs) {
+  fresh_.resize(keys.size());
+  for (Entry& entry : fresh_) entry.record = takeRecord();
+  jobs.forRange(static_cast<uint32_t>(keys.size()), 64, [&](uint32_t begin, uint32_t end, int) {
+    for (uint32_t i = begin; i < end; ++i) {
+      const uint32_t record = fresh_[i].record;
+      records_[record] = PairData{};
+      fill(records_[record], keys[i]);
+      fresh_[i] = entryOf(records_[record], record);
+    }
+  });
   add(fresh_);
 }
 

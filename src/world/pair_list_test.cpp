@@ -26,6 +26,7 @@ std::vector<Marked> contentOf(const PairList& list) {
 
 TEST(PairList, KeepsOrderAndRecordsWhateverComesAndGoes) {
   std::mt19937 random{3};
+  Jobs jobs(1, {});
   PairList list;
   std::vector<Marked> model;
   uint32_t mark = 0;
@@ -38,14 +39,20 @@ TEST(PairList, KeepsOrderAndRecordsWhateverComesAndGoes) {
     }
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-    list.insert(keys, [&](PairData& pair, uint64_t key) {
-      EXPECT_EQ(pair.element, kNoElement) << "a fresh one";
-      pair = pairOf(key);
-      pair.element = ++mark;
-      model.emplace_back(key, mark);
-    });
+    list.insert(
+        keys,
+        [&](PairData& pair, uint64_t key) {
+          EXPECT_EQ(pair.element, kNoElement) << "a fresh one";
+          pair = pairOf(key);
+          pair.element = ++mark;
+          model.emplace_back(key, mark);
+        },
+        jobs);
     std::sort(model.begin(), model.end());
     ASSERT_EQ(contentOf(list), model);
+    list.sortStrayed(jobs);
+    ASSERT_EQ(contentOf(list), model);
+    ASSERT_EQ(contentOf(PairList(list)), model);
     const uint32_t gone = random() % 17;
     list.eraseIf([&](size_t i) { return list[i].element % 17 == gone; });
     std::erase_if(model, [&](const Marked& m) { return m.second % 17 == gone; });

@@ -174,11 +174,11 @@ auto snapshotParts(T& x) {
   return std::tie(body, pose, userData);
 }
 
-/// No state: the times of the stages, and the width, which is the processor's.
+/// No state: the times of the stages, how they are shared, and the width, which is the processor's.
 template <MaybeConst<StepReport> T>
 auto snapshotParts(T& x) {
   auto& [step, bodies, asleep, pairs, contacts, points, joints, islands, colors, fastBodies, impacts, simdWidth,
-         seconds] = x;
+         sharedRuns, seconds, sharedSeconds] = x;
   return std::tie(step, bodies, asleep, pairs, contacts, points, joints, islands, colors, fastBodies, impacts);
 }
 
