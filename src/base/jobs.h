@@ -37,10 +37,13 @@ class Jobs {
   /// throw the lowest one's exception is thrown on.
   void run(uint32_t count, FunctionRef<void(uint32_t piece, int worker)> f);
 
-  /// Calls f(begin, end, worker) for 0 .. count in pieces of `grain`.
+  /// What forRange() makes of a grain: a piece begins at each multiple of it.
+  static constexpr uint32_t grainOf(uint32_t grain) { return kShareAll && grain > 8 ? 8 : grain; }
+
+  /// Calls f(begin, end, worker) for 0 .. count in pieces of grainOf(grain).
   template <class F>
   void forRange(uint32_t count, uint32_t grain, F&& f) {
-    if (kShareAll && grain > 8) grain = 8;
+    grain = grainOf(grain);
     const uint32_t pieces = (count + grain - 1) / grain;
     if (pieces == 0) return;
     run(pieces, [&](uint32_t piece, int worker) {

@@ -40,6 +40,15 @@ TEST(Jobs, RangesAreCutByCountAlone) {
   }
 }
 
+// What a piece finds is placed by its number, also where pieces are smaller than was asked for.
+TEST(Jobs, PiecesOfRangesHaveNumbers) {
+  Jobs jobs(3, {});
+  constexpr uint32_t kGrain = Jobs::grainOf(32);
+  std::vector<std::atomic<int>> pieces((100 + kGrain - 1) / kGrain);
+  jobs.forRange(100, 32, [&](uint32_t begin, uint32_t, int) { ++pieces[begin / kGrain]; });
+  for (const std::atomic<int>& piece : pieces) EXPECT_EQ(piece, 1);
+}
+
 TEST(Jobs, ThrowWhatTheLowestPieceThrew) {
   for (const int workers : {1, 2, 8}) {
     Jobs jobs(workers, {});

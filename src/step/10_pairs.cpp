@@ -99,7 +99,7 @@ bool mayMeet(const WorldData& world, uint32_t shapeA, uint32_t shapeB) {
   return isAwake(world, a.body) || isAwake(world, b.body) || a.isTrigger || b.isTrigger;
 }
 
-constexpr uint32_t kGrain = 32;  ///< shapes that one thread asks the tree about at a time
+constexpr uint32_t kGrain = Jobs::grainOf(32);  ///< shapes that one thread asks the tree about at a time
 
 /// Keys of a moved shape's pairs that are not in the list.
 void findKeys(const WorldData& world, uint32_t slot, std::vector<uint64_t>& keys) {
