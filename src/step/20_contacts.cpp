@@ -60,7 +60,6 @@ void findManifolds(WorldData& world, StepData& step) {
       if (step.substep == 0) pair.touching = pair.touchBegins = false;
       findManifold(world, step, pair);
       step.found[i] = foundContact(world, pair);
-      world.pairs.setTouches(i, pair.pointCount > 0);
     }
   };
   const auto count = static_cast<uint32_t>(world.pairs.size());
@@ -100,10 +99,13 @@ void findOther(WorldData& world, StepData& step, size_t i) {
 void findRest(WorldData& world, StepData& step, size_t begin, size_t end) {
   for (size_t i = begin; i < end;) {
     const size_t next = world.pairs.isConvex(i) ? i + 1 : world.pairs.endOfRun(i);
-    if (!world.pairs.isConvex(i))
+    if (world.pairs.isConvex(i)) {
+      // Not where it was found: other threads ask for records by this.
+      world.pairs.setTouches(i, step.found[i].points > 0);
+      if (step.found[i].ends) step.touchChanges.push_back(world.pairs.key(i));
+    } else {
       findOther(world, step, i);
-    else if (step.found[i].ends)
-      step.touchChanges.push_back(world.pairs.key(i));
+    }
     for (; i < next; ++i) count(world.report, step.found[i].points);
   }
 }
