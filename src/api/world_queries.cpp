@@ -1,6 +1,4 @@
 // Queries: arguments are checked, the tree is fitted, the answers get their ids.
-#include <atomic>
-
 #include "api/world_impl.h"
 #include "query/query.h"
 #include "world/check.h"
@@ -9,14 +7,14 @@
 namespace avbd {
 namespace {
 
-/// Several first queries after a step may come at the same time; one fits the tree, the others wait.
+/// Several first queries after a step may come at the same time; one fits the tree, the others wait. The compiler's
+/// calls, as libc++ has no std::atomic_ref.
 const WorldData& fitted(WorldData& data, std::mutex& mutex) {
-  const std::atomic_ref<bool> behind(data.treeBehind);
-  if (!behind.load(std::memory_order_acquire)) return data;
+  if (!__atomic_load_n(&data.treeBehind, __ATOMIC_ACQUIRE)) return data;
   const std::lock_guard lock(mutex);
-  if (behind.load(std::memory_order_relaxed)) {
+  if (__atomic_load_n(&data.treeBehind, __ATOMIC_RELAXED)) {
     freshenTree(data);
-    behind.store(false, std::memory_order_release);
+    __atomic_store_n(&data.treeBehind, false, __ATOMIC_RELEASE);
   }
   return data;
 }

@@ -3,10 +3,10 @@
 
 #include <avbd/hull.h>
 
-#include <bit>
 #include <cfloat>
 #include <span>
 
+#include "base/bits.h"
 #include "geom/triangles.h"
 
 namespace avbd {
@@ -15,8 +15,8 @@ namespace {
 /// The float next below (step -1) or above (+1) f, which is finite.
 float neighbour(float f, int step) {
   if (f == 0) return static_cast<float>(step) * FLT_TRUE_MIN;
-  const uint32_t bits = std::bit_cast<uint32_t>(f);
-  return std::bit_cast<float>((f > 0) == (step > 0) ? bits + 1 : bits - 1);
+  const uint32_t bits = bitsAs<uint32_t>(f);
+  return bitsAs<float>((f > 0) == (step > 0) ? bits + 1 : bits - 1);
 }
 
 float roundDown(double x) {

@@ -1,16 +1,17 @@
 // Snapshots: vectors by what they differ from those that are expected.
 #pragma once
 
+#include "base/bits.h"
 #include "world/snapshot_codec.h"
 
 namespace avbd::snapshot {
 
 // Floats as integers in their order, so that near ones differ by little. Each undoes itself.
 inline int32_t ordered(float x) {
-  const int32_t bits = std::bit_cast<int32_t>(x);
+  const int32_t bits = bitsAs<int32_t>(x);
   return bits < 0 ? bits ^ 0x7fffffff : bits;
 }
-inline float unordered(int32_t n) { return std::bit_cast<float>(n < 0 ? n ^ 0x7fffffff : n); }
+inline float unordered(int32_t n) { return bitsAs<float>(n < 0 ? n ^ 0x7fffffff : n); }
 inline uint32_t zigzag(uint32_t d) { return d << 1 ^ (d >> 31 ? 0xffffffffu : 0u); }
 inline uint32_t unzigzag(uint32_t z) { return z >> 1 ^ (z & 1 ? 0xffffffffu : 0u); }
 
