@@ -82,7 +82,11 @@ void addJoints(const WorldData& world, StepData& step, BatchRange& batch) {
 
 /// What the solver does not write itself for the rows of static and kinematic bodies begins as 0.
 void resizeRows(StepData& step, uint32_t rows) {
-  for (auto* array : {&step.d, &step.target, &step.mass, &step.invMass}) array->assign(size_t(8) * rows, 0.0f);
+  for (auto* array : {&step.d, &step.target, &step.mass, &step.invMass}) array->resize(size_t(8) * rows);
+  step.jobs->forRange(rows, 512, [&](uint32_t begin, uint32_t end, int) {
+    for (auto* array : {&step.d, &step.target, &step.mass, &step.invMass})
+      std::fill(array->begin() + 8 * ptrdiff_t(begin), array->begin() + 8 * ptrdiff_t(end), 0.0f);
+  });
   for (auto* array : {&step.diagonal, &step.gradient, &step.x, &step.r, &step.z, &step.p, &step.q})
     array->resize(size_t(8) * rows);
   for (auto* array : {&step.length, &step.product}) array->resize(rows);

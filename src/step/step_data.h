@@ -64,14 +64,20 @@ struct PlacedPair {
 struct ChunkScratch {
   std::vector<PlacedPair> pairs;
   std::vector<uint8_t> chunkOf;  ///< by row of a dynamic body
-  std::vector<uint32_t> seamOf;  ///< by two chunks, the lower one first: index in `seams`
+  struct Piece {
+    std::vector<uint32_t> seams;  ///< codes of those that it meets, in that order
+    std::vector<uint32_t> next;   ///< by place of a bucket: where its next contact goes
+    bool hasKinematic = false;
+  };
+  std::vector<Piece> pieces;  ///< the first pieceCount of them are in use
+  size_t pieceCount = 0;
+  std::vector<uint32_t> seamOf;  ///< by code of two chunks: index in `seams`
   struct Between {
     uint32_t low = 0, high = 0, color = 0;
   };
   std::vector<Between> seams;
   std::vector<uint32_t> order;  ///< of the seams, by colour
   std::vector<uint32_t> place;  ///< by bucket: among the buckets in their order
-  std::vector<uint32_t> next;   ///< by place: where its next contact goes
 };
 
 /// A contact row that rebounds (restitution.h).
