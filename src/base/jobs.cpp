@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -16,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/float_mode.h"
 
 namespace avbd {
@@ -25,8 +25,6 @@ namespace {
 /// Looks at the ticket before a thread sleeps: a millisecond or two, more than the stages between two that share work.
 /// To be woken takes some tens of microseconds, as long as a whole piece.
 constexpr int kSpins = 60000;
-
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void relax() {
 #if defined(__SSE2__)
@@ -179,13 +177,13 @@ void Jobs::run(uint32_t count, FunctionRef<void(uint32_t, int)> f) {
     if (count == 1) f(0, 0);
     return;
   }
-  const double start = seconds();
+  const double start = wallSeconds();
   if (workers_ == 1)
     for (uint32_t i = 0; i < count; ++i) f(i, 0);
   else
     share(count, f);
   ++sharedRuns_;
-  sharedSeconds_ += seconds() - start;
+  sharedSeconds_ += wallSeconds() - start;
 }
 
 void Jobs::share(uint32_t count, FunctionRef<void(uint32_t, int)> f) {

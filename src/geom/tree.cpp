@@ -52,7 +52,7 @@ void DynamicTree::move(int32_t proxy, const Aabb& box) {
 bool DynamicTree::fitsBeside(int32_t leaf, const Aabb& box) const {
   const int32_t joint = at(leaf).parent;
   if (joint < 0) return true;
-  const Aabb& beside = at(at(joint).child[at(joint).child[0] == leaf ? 1 : 0]).box;
+  const Aabb& beside = at(siblingOf(leaf)).box;
   return area(merge(beside, box)) - area(beside) <= kMostBeside * area(box);
 }
 
@@ -151,12 +151,12 @@ void DynamicTree::attach(int32_t leaf) {
 
 void DynamicTree::detach(int32_t leaf) {
   const int32_t joint = at(leaf).parent;
-  at(leaf).parent = -1;
   if (joint < 0) {
     root_ = -1;
     return;
   }
-  const int32_t sibling = at(joint).child[at(joint).child[0] == leaf ? 1 : 0], above = at(joint).parent;
+  const int32_t sibling = siblingOf(leaf), above = at(joint).parent;
+  at(leaf).parent = -1;
   at(sibling).parent = above;
   freeNode(joint);
   if (above < 0) {

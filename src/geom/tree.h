@@ -103,6 +103,11 @@ class DynamicTree {
   void attach(int32_t leaf);
   void detach(int32_t leaf);
   int32_t bestSibling(const Aabb& box) const;
+  /// The other child of its parent, which it has.
+  int32_t siblingOf(int32_t i) const {
+    const Node& above = at(at(i).parent);
+    return above.child[above.child[0] == i ? 1 : 0];
+  }
   void refit(int32_t i);
   void refitUpwards(int32_t i);
   bool fitsBeside(int32_t leaf, const Aabb& box) const;

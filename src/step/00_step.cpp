@@ -1,7 +1,7 @@
 // The whole frame on one page.
 #include <algorithm>
-#include <chrono>
 
+#include "base/clock.h"
 #include "base/float_mode.h"
 #include "base/jobs.h"
 #include "base/zone.h"
@@ -18,14 +18,12 @@ namespace avbd {
 
 namespace {
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
 void run(Stage stage, void (*f)(WorldData&, StepData&), WorldData& world, StepData& step) {
   AVBD_ZONE(stageName(stage));
   const auto i = static_cast<size_t>(stage);
-  const double start = now(), shared = step.jobs->sharedSeconds();
+  const double start = wallSeconds(), shared = step.jobs->sharedSeconds();
   f(world, step);
-  world.report.seconds[i] += now() - start;
+  world.report.seconds[i] += wallSeconds() - start;
   world.report.sharedSeconds[i] += step.jobs->sharedSeconds() - shared;
 }
 

@@ -9,9 +9,6 @@ namespace avbd {
 
 namespace {
 
-/// Of what gravity gives in a step: contacts at rest approach more slowly, and carry a load.
-constexpr float kResting = 0.5f;
-
 /// A body as an impulse along the normal meets it.
 struct Side {
   float invMass = 0;
@@ -38,12 +35,12 @@ bool findClosing(const WorldData& world, const StepData& step, const PairData& p
     return rows::Twist<float>{toRow(world.bodies[body].linearVelocity), toRow(world.bodies[body].angularVelocity)};
   };
   const rows::Twist<float> motion = relativeMotion(motionOf(pair.bodyA), motionOf(pair.bodyB), c.armA, c.armB);
-  const float together = dot(c.n, motion.lin), resting = kResting * length(world.def.gravity) * step.h;
+  const float together = dot(c.n, motion.lin);
   bool found = false;
   for (int i = 0; i < pair.pointCount; ++i) {
     const rows::ContactPointRows<float>& p = c.point[i];
     const float speed = together + dot(motion.ang, cross(p.arm, c.n));
-    const bool meets = speed > resting && !(pair.points[i].rebound > 0);
+    const bool meets = speed > step.restingSpeed && !(pair.points[i].rebound > 0);
     closing[i] = meets ? std::max(p.biasN + speed * step.h, 0.0f) : 0;
     found = found || closing[i] > 0;
   }

@@ -13,6 +13,7 @@ constexpr float kJointLeak = 0.001f;  ///< the same of joints that no tree holds
 constexpr float kSlop = 0.001f;       ///< of the length unit
 constexpr float kLoadDepth = 0.005f;  ///< of the length unit: without gravity
 constexpr float kNegligible = 1e-4f;  ///< of the load depth, a micrometre: what a search need not correct
+constexpr float kResting = 0.5f;      ///< of what gravity gives in a step
 constexpr int kKrylovIterations = 12;
 
 }  // namespace
@@ -31,6 +32,7 @@ void chooseSettings(const WorldData& world, StepData& step, float h) {
   step.h = h;
   step.alpha = 1 - std::min(1.0f, kCorrection * steps);
   step.slop = kSlop * def.lengthUnit;
+  step.restingSpeed = kResting * length(def.gravity) * h;
   const float fall = 2 * length(def.gravity) * h * h;
   step.loadDepth = fall > 0 ? fall : kLoadDepth * def.lengthUnit * steps * steps;
   step.solve.h = h;

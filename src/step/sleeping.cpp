@@ -58,7 +58,8 @@ void listWoken(WorldData& world, StepData& step, size_t begin) {
 bool maySweep(const WorldData& world, const StepData& step, const FoundContact& pair) {
   if (!pair.hasKinematic()) return false;
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
-  const BodyData &moves = a.type == BodyType::Kinematic ? a : b, &rests = a.type == BodyType::Kinematic ? b : a;
+  const bool isA = pair.typeA == BodyType::Kinematic;
+  const BodyData &moves = isA ? a : b, &rests = isA ? b : a;
   const float way = (length(moves.linearVelocity) + length(moves.angularVelocity) * moves.radius) * step.h;
   return way > rests.minExtent;
 }

@@ -221,10 +221,11 @@ struct Saved {
 };
 
 struct StepData {
-  float h = 0;          ///< [s] of a substep
-  float alpha = 0;      ///< share of a violation at the start of the step that a row keeps
-  float slop = 0;       ///< [m] depth at which contacts come to rest
-  float loadDepth = 0;  ///< [m] at which a loaded row holds its load
+  float h = 0;             ///< [s] of a substep
+  float restingSpeed = 0;  ///< [m/s] contacts at rest approach more slowly, and carry a load
+  float alpha = 0;         ///< share of a violation at the start of the step that a row keeps
+  float slop = 0;          ///< [m] depth at which contacts come to rest
+  float loadDepth = 0;     ///< [m] at which a loaded row holds its load
   SolveSettings solve;
   const Backend* backend = nullptr;
   Jobs* jobs = nullptr;
