@@ -10,6 +10,22 @@ namespace avbd {
 
 namespace {
 
+/// What one thread works at at a time.
+constexpr uint32_t kBodyGrain = Jobs::grainOf(64), kShapeGrain = Jobs::grainOf(32), kPairGrain = Jobs::grainOf(1024);
+
+/// Makes `of` one empty list a piece.
+template <class T>
+void clearPieces(std::vector<std::vector<T>>& of, uint32_t count, uint32_t grain) {
+  of.resize(std::max<size_t>(of.size(), (count + grain - 1) / grain));
+  for (std::vector<T>& list : of) list.clear();
+}
+
+/// One piece's list behind the other.
+template <class T>
+void addPieces(const std::vector<std::vector<T>>& of, std::vector<T>& all) {
+  for (const std::vector<T>& list : of) all.insert(all.end(), list.begin(), list.end());
+}
+
 uint64_t pairKey(uint32_t a, uint32_t b) { return a < b ? uint64_t(a) << 32 | b : uint64_t(b) << 32 | a; }
 
 Vec3 lengthen(Vec3 bound, Vec3 motion, bool upper) {
@@ -69,21 +85,17 @@ void refitUnpaired(WorldData& world, StepData& step) {
 /// Shapes of bodies that are awake and leave their bounds, in the order of the bodies.
 void refitAwake(WorldData& world, StepData& step) {
   const std::vector<uint32_t>& awake = world.sleep.awake;
-  const auto forShapes = [&](uint32_t i, auto&& f) {
-    const BodyData& body = world.bodies[awake[i]];
-    for (uint32_t s = body.firstShape; s != kNone; s = world.shapes[s].next) f(body, s);
-  };
-  step.leaving.resize(world.shapes.size());
-  step.jobs->forRange(static_cast<uint32_t>(awake.size()), 64, [&](uint32_t begin, uint32_t end, int) {
-    for (uint32_t i = begin; i < end; ++i)
-      forShapes(
-          i, [&](const BodyData& body, uint32_t s) { step.leaving[s] = leaves(world, step, body, world.shapes[s]); });
+  const auto count = static_cast<uint32_t>(awake.size());
+  clearPieces(step.leavingOf, count, kBodyGrain);
+  step.jobs->forRange(count, kBodyGrain, [&](uint32_t begin, uint32_t end, int) {
+    for (uint32_t i = begin; i < end; ++i) {
+      const BodyData& body = world.bodies[awake[i]];
+      for (uint32_t s = body.firstShape; s != kNone; s = world.shapes[s].next)
+        if (leaves(world, step, body, world.shapes[s])) step.leavingOf[begin / kBodyGrain].push_back(s);
+    }
   });
   const size_t before = step.moved.size();
-  for (uint32_t i = 0; i < awake.size(); ++i)
-    forShapes(i, [&](const BodyData&, uint32_t s) {
-      if (step.leaving[s]) step.moved.push_back(s);
-    });
+  addPieces(step.leavingOf, step.moved);
   refit(world, step, before);
 }
 
@@ -99,8 +111,6 @@ bool mayMeet(const WorldData& world, uint32_t shapeA, uint32_t shapeB) {
   return isAwake(world, a.body) || isAwake(world, b.body) || a.isTrigger || b.isTrigger;
 }
 
-constexpr uint32_t kGrain = Jobs::grainOf(32);  ///< shapes that one thread asks the tree about at a time
-
 /// Keys of a moved shape's pairs that are not in the list.
 void findKeys(const WorldData& world, uint32_t slot, std::vector<uint64_t>& keys) {
   world.tree.query(world.tree.box(world.shapes[slot].proxy), [&](uint32_t other) {
@@ -112,14 +122,12 @@ void findKeys(const WorldData& world, uint32_t slot, std::vector<uint64_t>& keys
 
 void findNewKeys(WorldData& world, StepData& step) {
   const auto count = static_cast<uint32_t>(step.moved.size());
-  step.keysOf.resize(std::max<size_t>(step.keysOf.size(), (count + kGrain - 1) / kGrain));
-  for (std::vector<uint64_t>& keys : step.keysOf) keys.clear();
-  step.jobs->forRange(count, kGrain, [&](uint32_t begin, uint32_t end, int) {
-    for (uint32_t i = begin; i < end; ++i) findKeys(world, step.moved[i], step.keysOf[begin / kGrain]);
+  clearPieces(step.keysOf, count, kShapeGrain);
+  step.jobs->forRange(count, kShapeGrain, [&](uint32_t begin, uint32_t end, int) {
+    for (uint32_t i = begin; i < end; ++i) findKeys(world, step.moved[i], step.keysOf[begin / kShapeGrain]);
   });
   step.newKeys.clear();
-  for (const std::vector<uint64_t>& keys : step.keysOf)
-    step.newKeys.insert(step.newKeys.end(), keys.begin(), keys.end());
+  addPieces(step.keysOf, step.newKeys);
   std::sort(step.newKeys.begin(), step.newKeys.end());
   step.newKeys.erase(std::unique(step.newKeys.begin(), step.newKeys.end()), step.newKeys.end());
 }
@@ -129,17 +137,19 @@ void dropParted(WorldData& world, StepData& step) {
   step.isMoved.resize(world.shapes.size());
   for (const uint32_t slot : step.moved) step.isMoved[slot] = 1;
   const auto boundsOf = [&](uint32_t shape) -> const Aabb& { return world.tree.box(world.shapes[shape].proxy); };
-  step.parted.resize(world.pairs.size());
-  step.jobs->forRange(static_cast<uint32_t>(world.pairs.size()), 1024, [&](uint32_t begin, uint32_t end, int) {
+  const auto count = static_cast<uint32_t>(world.pairs.size());
+  clearPieces(step.partedOf, count, kPairGrain);
+  step.jobs->forRange(count, kPairGrain, [&](uint32_t begin, uint32_t end, int) {
     for (uint32_t i = begin; i < end; ++i) {
       const uint32_t a = world.pairs.shapeA(i), b = world.pairs.shapeB(i);
-      step.parted[i] = (step.isMoved[a] || step.isMoved[b]) && !overlaps(boundsOf(a), boundsOf(b));
+      if ((step.isMoved[a] || step.isMoved[b]) && !overlaps(boundsOf(a), boundsOf(b)))
+        step.partedOf[begin / kPairGrain].push_back(i);
     }
   });
-  world.pairs.eraseIf([&](size_t i) {
-    if (step.parted[i]) loseTouch(world, i, step.substep > 0);
-    return step.parted[i] != 0;
-  });
+  step.parted.clear();
+  addPieces(step.partedOf, step.parted);
+  for (const uint32_t i : step.parted) loseTouch(world, i, step.substep > 0);
+  world.pairs.erase(step.parted);
   for (const uint32_t slot : step.moved) step.isMoved[slot] = 0;
 }
 

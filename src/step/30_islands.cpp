@@ -21,16 +21,38 @@ void join(std::vector<uint32_t>& parent, uint32_t a, uint32_t b) {
   if (b < a) parent[a] = b;
 }
 
-/// Pairs with points, in order. Without a branch, as which ones have some nobody can foresee.
+constexpr uint32_t kPairGrain = Jobs::grainOf(2048);
+
+/// Pairs with points, in order: each piece's own at its beginning, then moved up. Without a branch, as which ones have
+/// some nobody can foresee.
 void listTouching(StepData& step) {
   const auto count = static_cast<uint32_t>(step.found.size());
   step.touching.resize(count);
-  uint32_t size = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    step.touching[size] = i;
-    size += step.found[i].points > 0;
-  }
-  step.touching.resize(size);
+  step.touchingEnd.resize((count + kPairGrain - 1) / kPairGrain);
+  step.jobs->forRange(count, kPairGrain, [&](uint32_t begin, uint32_t end, int) {
+    uint32_t* at = step.touching.data() + begin;
+    for (uint32_t i = begin; i < end; ++i) {
+      *at = i;
+      at += step.found[i].points > 0;
+    }
+    step.touchingEnd[begin / kPairGrain] = static_cast<uint32_t>(at - step.touching.data());
+  });
+  auto end = step.touching.begin();
+  for (uint32_t piece = 0; piece < step.touchingEnd.size(); ++piece)
+    end = std::copy(step.touching.begin() + piece * kPairGrain, step.touching.begin() + step.touchingEnd[piece], end);
+  step.touching.erase(end, step.touching.end());
+}
+
+/// The records of bodies are far apart in memory: all threads read them.
+void listAwake(const WorldData& world, StepData& step) {
+  const std::vector<uint32_t>& awake = world.sleep.awake;
+  step.awake.resize(awake.size());
+  step.jobs->forRange(static_cast<uint32_t>(awake.size()), 256, [&](uint32_t begin, uint32_t end, int) {
+    for (uint32_t i = begin; i < end; ++i) {
+      const BodyData& body = world.bodies[awake[i]];
+      step.awake[i] = {awake[i], body.type, body.mass, body.iterations};
+    }
+  });
 }
 
 void joinBodies(const WorldData& world, StepData& step) {
@@ -67,9 +89,9 @@ void listBodies(const WorldData& world, StepData& step) {
   step.islandOf.resize(std::max(step.islandOf.size(), world.bodies.size()), kNone);
   step.islands.clear();
   step.kinematic.clear();
-  for (const uint32_t slot : world.sleep.awake) {
-    if (world.bodies[slot].type == BodyType::Kinematic) step.kinematic.push_back(slot);
-    if (!isDynamic(world, slot)) continue;
+  for (const auto& [slot, type, mass, iterations] : step.awake) {
+    if (type == BodyType::Kinematic) step.kinematic.push_back(slot);
+    if (type != BodyType::Dynamic) continue;
     const uint32_t root = find(step.parent, slot);
     if (root == slot) {
       step.islandOf[slot] = static_cast<uint32_t>(step.islands.size());
@@ -79,13 +101,12 @@ void listBodies(const WorldData& world, StepData& step) {
     ++step.islands[step.islandOf[slot]].bodyCount;
   }
   step.order.resize(layOut(step.islands, &Island::bodyBegin, &Island::bodyCount));
-  for (const uint32_t slot : world.sleep.awake) {
+  for (const auto& [slot, type, mass, iterations] : step.awake) {
     if (step.islandOf[slot] == kNone) continue;
     Island& island = step.islands[step.islandOf[slot]];
     step.order[island.bodyBegin + island.bodyCount++] = slot;
-    island.mass += world.bodies[slot].mass;
-    const int asked = world.bodies[slot].iterations;
-    island.iterations = std::max(island.iterations, asked > 0 ? asked : world.def.iterations);
+    island.mass += mass;
+    island.iterations = std::max(island.iterations, iterations > 0 ? iterations : world.def.iterations);
   }
 }
 
@@ -137,6 +158,7 @@ void listJoints(const WorldData& world, StepData& step) {
 
 void findIslands(WorldData& world, StepData& step) {
   listTouching(step);
+  listAwake(world, step);
   joinBodies(world, step);
   listBodies(world, step);
   listPairs(step);

@@ -9,8 +9,8 @@ namespace avbd {
 
 namespace {
 
-Vec3 readLin(const AlignedVector<float>& array, size_t at) { return {array[at], array[at + 1], array[at + 2]}; }
-Vec3 readAng(const AlignedVector<float>& array, size_t at) { return {array[at + 4], array[at + 5], array[at + 6]}; }
+Vec3 readLin(const UnwrittenVector<float>& array, size_t at) { return {array[at], array[at + 1], array[at + 2]}; }
+Vec3 readAng(const UnwrittenVector<float>& array, size_t at) { return {array[at + 4], array[at + 5], array[at + 6]}; }
 
 bool isFinite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool isFinite(Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }

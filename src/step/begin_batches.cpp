@@ -80,19 +80,28 @@ void addJoints(const WorldData& world, StepData& step, BatchRange& batch) {
   batch.tetTiles = static_cast<uint32_t>(step.tetJoint.size()) / kTile - batch.tetTile;
 }
 
+/// Makes room for `count` that somebody else writes. What was in it is of the last step, and not copied.
+template <class T>
+void makeRoom(UnwrittenVector<T>& array, size_t count) {
+  if (array.size() >= count) return;
+  array.clear();
+  if (array.capacity() < count) array.reserve(count + count / 2);
+  array.resize(count);
+}
+
 /// What the solver does not write itself for the rows of static and kinematic bodies begins as 0.
 void resizeRows(StepData& step, uint32_t rows) {
-  for (auto* array : {&step.d, &step.target, &step.mass, &step.invMass}) array->resize(size_t(8) * rows);
+  for (auto* array : {&step.d, &step.target, &step.mass, &step.invMass}) makeRoom(*array, size_t(8) * rows);
   step.jobs->forRange(rows, 512, [&](uint32_t begin, uint32_t end, int) {
     for (auto* array : {&step.d, &step.target, &step.mass, &step.invMass})
       std::fill(array->begin() + 8 * ptrdiff_t(begin), array->begin() + 8 * ptrdiff_t(end), 0.0f);
   });
   for (auto* array : {&step.diagonal, &step.gradient, &step.x, &step.r, &step.z, &step.p, &step.q})
-    array->resize(size_t(8) * rows);
-  for (auto* array : {&step.length, &step.product}) array->resize(rows);
-  step.hessian.resize(size_t(kHessianRow) * rows);
-  step.body.resize(rows / kTile), step.free.resize(rows / kTile), step.endTiles.resize(rows / kTile);
-  step.inverse.resize(rows / kTile);
+    makeRoom(*array, size_t(8) * rows);
+  for (auto* array : {&step.length, &step.product}) makeRoom(*array, rows);
+  makeRoom(step.hessian, size_t(kHessianRow) * rows);
+  makeRoom(step.body, rows / kTile), makeRoom(step.free, rows / kTile), makeRoom(step.endTiles, rows / kTile);
+  makeRoom(step.inverse, rows / kTile);
 }
 
 /// What chunks add to and no chunk begins: rows of static and kinematic bodies.
@@ -108,14 +117,12 @@ void clearRowsBeyondChunks(StepData& step) {
 }
 
 void resizeTiles(StepData& step) {
-  step.contacts.resize(step.contactPair.size() / kTile);
-  step.balls.resize(step.ballJoint.size() / kTile);
-  step.fixed.resize(step.fixedJoint.size() / kTile);
-  step.tets.resize(step.tetJoint.size() / kTile);
-  step.full.resize(step.fullPair.size() / kTile);
-  step.fullOp.resize(step.full.size());
-  step.op.resize(step.contacts.size() + step.balls.size() + step.fixed.size() + step.scalar.size() / kTile);
-  step.tetOp.resize(step.tets.size());
+  const size_t contacts = step.contactPair.size() / kTile, balls = step.ballJoint.size() / kTile,
+               fixed = step.fixedJoint.size() / kTile, tets = step.tetJoint.size() / kTile,
+               full = step.fullPair.size() / kTile, scalars = step.scalar.size() / kTile;
+  makeRoom(step.contacts, contacts), makeRoom(step.balls, balls), makeRoom(step.fixed, fixed);
+  makeRoom(step.tets, tets), makeRoom(step.full, full);
+  makeRoom(step.op, contacts + balls + fixed + scalars), makeRoom(step.tetOp, tets), makeRoom(step.fullOp, full);
 }
 
 }  // namespace

@@ -31,16 +31,12 @@ void forPieces(StepData& step, F&& f) {
   });
 }
 
-void listPairs(StepData& step, const BatchRange& batch) {
-  std::vector<PlacedPair>& pairs = step.chunking.pairs;
-  pairs.clear();
-  for (uint32_t n = 0; n < batch.islandCount; ++n) {
-    const Island& island = step.islands[batch.islandBegin + n];
-    for (uint32_t i = 0; i < island.pairCount; ++i) {
-      const uint32_t pair = step.islandPairs[island.pairBegin + i];
-      if (!step.found[pair].isFull) pairs.push_back({pair});
-    }
-  }
+/// A place for each pair of the batch's islands, which stand one behind the other. Returns the first.
+uint32_t countPairs(StepData& step, const BatchRange& batch) {
+  const Island& first = step.islands[batch.islandBegin];
+  const Island& last = step.islands[batch.islandBegin + batch.islandCount - 1];
+  step.chunking.pairs.resize(last.pairBegin + last.pairCount - first.pairBegin);
+  return first.pairBegin;
 }
 
 /// Bucket of a pair until the seams have their numbers: its chunk, or behind them all which two it is between.
@@ -61,13 +57,17 @@ void place(StepData& step, BatchRange& batch, PlacedPair& placed) {
   placed.bucket = pair.hasKinematic() ? kNone : a == b ? a : seamCode(batch.chunkCount, a, b);
 }
 
-/// Places the piece's pairs and lists the seams that it meets. Kinematic bodies get rows as they are met, one after the
-/// other, so their pairs wait.
-void placePiece(StepData& step, BatchRange& batch, ChunkScratch::Piece& piece, std::span<PlacedPair> pairs) {
+/// Places the piece's pairs, the first of which is *pair, and lists the seams that it meets. Full contacts have lanes
+/// elsewhere. Kinematic bodies get rows as they are met, one after the other, so their pairs wait.
+void placePiece(StepData& step, BatchRange& batch, ChunkScratch::Piece& piece, std::span<PlacedPair> pairs,
+                const uint32_t* pair) {
   std::bitset<kMostChunks*(kMostChunks + 1)> seen;
   piece.seams.clear();
   piece.hasKinematic = false;
   for (PlacedPair& placed : pairs) {
+    placed = {*pair++};
+    if (step.found[placed.pair].isFull) placed.pair = kNone;
+    if (placed.pair == kNone) continue;
     const bool kinematic = step.found[placed.pair].hasKinematic();
     piece.hasKinematic = piece.hasKinematic || kinematic;
     if (kinematic) continue;
@@ -84,8 +84,10 @@ void placeKinematic(StepData& step, BatchRange& batch) {
   for (size_t k = 0; k < scratch.pieceCount; ++k) {
     if (!scratch.pieces[k].hasKinematic) continue;
     const size_t end = std::min((k + 1) * grain, scratch.pairs.size());
-    for (size_t i = k * grain; i < end; ++i)
-      if (step.found[scratch.pairs[i].pair].hasKinematic()) place(step, batch, scratch.pairs[i]);
+    for (size_t i = k * grain; i < end; ++i) {
+      PlacedPair& placed = scratch.pairs[i];
+      if (placed.pair != kNone && step.found[placed.pair].hasKinematic()) place(step, batch, placed);
+    }
   }
 }
 
@@ -136,6 +138,7 @@ void countBuckets(StepData& step, uint32_t chunks, uint32_t buckets) {
     std::vector<uint32_t>& next = scratch.pieces[piece].next;
     next.assign(buckets, 0);
     for (PlacedPair& placed : pairs) {
+      if (placed.pair == kNone) continue;
       placed.bucket = placeOf(scratch, chunks, placed.bucket);
       ++next[placed.bucket];
     }
@@ -189,6 +192,7 @@ void fillLanes(StepData& step) {
   forPieces(step, [&](uint32_t piece, std::span<PlacedPair> pairs) {
     std::vector<uint32_t>& next = step.chunking.pieces[piece].next;
     for (const PlacedPair& placed : pairs) {
+      if (placed.pair == kNone) continue;
       const uint32_t lane = next[placed.bucket]++;
       step.contactPair[lane] = placed.pair;
       step.contactRow[0][lane] = placed.rowA, step.contactRow[1][lane] = placed.rowB;
@@ -201,12 +205,13 @@ void fillLanes(StepData& step) {
 void addContacts(StepData& step, BatchRange& batch) {
   ChunkScratch& scratch = step.chunking;
   const uint32_t chunks = batch.chunkCount;
-  listPairs(step, batch);
+  const uint32_t first = countPairs(step, batch);
   const size_t grain = grainOf(scratch);
   scratch.pieceCount = (scratch.pairs.size() + grain - 1) / grain;
   scratch.pieces.resize(std::max(scratch.pieces.size(), scratch.pieceCount));
   forPieces(step, [&](uint32_t piece, std::span<PlacedPair> pairs) {
-    placePiece(step, batch, scratch.pieces[piece], pairs);
+    const auto at = static_cast<size_t>(pairs.data() - scratch.pairs.data());
+    placePiece(step, batch, scratch.pieces[piece], pairs, step.islandPairs.data() + first + at);
   });
   placeKinematic(step, batch);
   numberSeams(scratch, chunks);

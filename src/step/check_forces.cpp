@@ -40,9 +40,9 @@ constexpr size_t multiplierLine(size_t point) {
 
 /// Only the multipliers of each tile are read, sixteen contacts at a time. A full contact begins with a contact.
 template <template <class> class Family>
-void checkContactTiles(const WorldData& world, const StepData& step, const AlignedVector<Tile<Family>>& tiles,
+void checkContactTiles(const WorldData& world, const StepData& step, const UnwrittenVector<Tile<Family>>& tiles,
                        const std::vector<uint32_t>& pairs) {
-  step.jobs->forRange(static_cast<uint32_t>(tiles.size()), 64, [&](uint32_t begin, uint32_t end, int) {
+  step.jobs->forRange(static_cast<uint32_t>(pairs.size() / kTile), 64, [&](uint32_t begin, uint32_t end, int) {
     for (size_t t = begin; t < end; ++t) {
       float sum[kTile] = {};
       for (size_t point = 0; point < size_t(kMaxManifoldPoints); ++point)

@@ -242,13 +242,14 @@ struct StepData {
   bool pairsKept = false;
 
   // 10_pairs
-  std::vector<uint32_t> moved;                ///< shapes that left their fat bounds
-  std::vector<DynamicTree::Shift> shifts;     ///< of those in `moved`
-  std::vector<uint8_t> isMoved;               ///< by shape slot
-  std::vector<uint8_t> leaving;               ///< by shape slot, of bodies that are awake: it leaves its fat bounds
-  std::vector<std::vector<uint64_t>> keysOf;  ///< by piece of `moved`: new keys that it finds
+  std::vector<uint32_t> moved;                   ///< shapes that left their fat bounds
+  std::vector<DynamicTree::Shift> shifts;        ///< of those in `moved`
+  std::vector<uint8_t> isMoved;                  ///< by shape slot
+  std::vector<std::vector<uint32_t>> leavingOf;  ///< by piece of the awake bodies: shapes that leave their fat bounds
+  std::vector<std::vector<uint64_t>> keysOf;     ///< by piece of `moved`: new keys that it finds
   std::vector<uint64_t> newKeys;
-  std::vector<uint8_t> parted;  ///< by pair
+  std::vector<std::vector<uint32_t>> partedOf;  ///< by piece of the pairs: places of those that do not overlap any more
+  std::vector<uint32_t> parted;                 ///< of all pieces
 
   // 20_contacts
   std::vector<SurfacePatch> patches;   ///< of one pair with a surface; by patch:
@@ -267,10 +268,18 @@ struct StepData {
   std::vector<uint32_t> wokenPairs;    ///< indices of the first entries of their pairs
 
   // 30_islands
-  std::vector<uint32_t> touching;  ///< pairs with points
-  std::vector<uint32_t> parent;    ///< union-find, by body slot
-  std::vector<uint32_t> islandOf;  ///< by body slot
-  std::vector<uint32_t> order;     ///< dynamic body slots, island by island
+  struct AwakeBody {
+    uint32_t slot;
+    BodyType type;
+    float mass;      ///< [kg]
+    int iterations;  ///< that it asks for; 0: as the world
+  };
+  std::vector<AwakeBody> awake;       ///< what islands need of bodies, as SleepData::awake
+  std::vector<uint32_t> touching;     ///< pairs with points
+  std::vector<uint32_t> touchingEnd;  ///< by piece of the pairs, while they are listed
+  std::vector<uint32_t> parent;       ///< union-find, by body slot
+  std::vector<uint32_t> islandOf;     ///< by body slot
+  std::vector<uint32_t> order;        ///< dynamic body slots, island by island
   std::vector<Island> islands;
   std::vector<uint32_t> islandPairs;   ///< pairs with points, island by island, by key
   std::vector<uint32_t> islandJoints;  ///< joint slots
@@ -294,29 +303,29 @@ struct StepData {
 
   // Body rows.
   std::vector<IslandRange> ranges;
-  AlignedVector<Tile<FreeBody>> body;  ///< of all batches, as the rows
-  AlignedVector<Tile<FreeMotion>> free;
-  AlignedVector<Tile<EndMotion>> endTiles;
-  AlignedVector<float> d, target, mass, invMass, diagonal, gradient, hessian, x, r, z, p, q, length, product;
-  AlignedVector<Tile<rows::Sym6>> inverse;
+  UnwrittenVector<Tile<FreeBody>> body;  ///< of all batches, as the rows
+  UnwrittenVector<Tile<FreeMotion>> free;
+  UnwrittenVector<Tile<EndMotion>> endTiles;
+  UnwrittenVector<float> d, target, mass, invMass, diagonal, gradient, hessian, x, r, z, p, q, length, product;
+  UnwrittenVector<Tile<rows::Sym6>> inverse;
   std::vector<uint32_t> lockedRows;
   std::vector<uint8_t> locks;
 
   // Tiles.
-  AlignedVector<Tile<rows::Contact>> contacts;
-  AlignedVector<Tile<rows::BallJoint>> balls;
-  AlignedVector<Tile<rows::FixedJoint>> fixed;
-  AlignedVector<Tile<rows::TetVolume>> tets;
-  AlignedVector<Tile<rows::FullContact>> full;
+  UnwrittenVector<Tile<rows::Contact>> contacts;
+  UnwrittenVector<Tile<rows::BallJoint>> balls;
+  UnwrittenVector<Tile<rows::FixedJoint>> fixed;
+  UnwrittenVector<Tile<rows::TetVolume>> tets;
+  UnwrittenVector<Tile<rows::FullContact>> full;
   std::vector<ScalarJoint> scalar;  ///< by lane; padding has no slot
   std::vector<uint32_t> scalarOf;   ///< by joint slot: index in `scalar`
   std::vector<LinkedJoint> linked;
   std::vector<uint32_t> contactRow[2], ballRow[2], fixedRow[2], tetRow[4], fullRow[2], scalarRow[2];
   std::vector<uint32_t> contactPair, ballJoint, fixedJoint, tetJoint;  ///< by lane: pair or joint slot, kNone
-  AlignedVector<Tile<PairOp>> op;
+  UnwrittenVector<Tile<PairOp>> op;
   std::vector<uint32_t> fullPair;  ///< by lane, as contactPair
-  AlignedVector<Tile<NodeOp>> tetOp;
-  AlignedVector<Tile<ScaledOp>> fullOp;
+  UnwrittenVector<Tile<NodeOp>> tetOp;
+  UnwrittenVector<Tile<ScaledOp>> fullOp;
   std::vector<Forest> forests;  ///< the first forestCount are in use
   uint32_t forestCount = 0;
   std::vector<TreeResponse> response;  ///< of one forest

@@ -28,6 +28,16 @@ uint32_t PairList::takeRecord() {
   return record;
 }
 
+/// Gives fresh_ as many entries, each with a record of its own.
+void PairList::takeRecords(size_t count, Jobs& jobs) {
+  fresh_.resize(count);
+  const size_t old = std::min(count, free_.size()), had = records_.size();
+  for (size_t i = 0; i < old; ++i) fresh_[i].record = free_[free_.size() - 1 - i];
+  free_.resize(free_.size() - old);
+  for (size_t i = old; i < count; ++i) fresh_[i].record = static_cast<uint32_t>(had + i - old);
+  records_.resize(had + count - old, jobs);
+}
+
 void PairList::insert(std::span<const PairData> pairs) {
   fresh_.clear();
   for (const PairData& pair : pairs) {
@@ -46,9 +56,22 @@ void PairList::add(std::span<const Entry> entries) {
       [&](size_t i) { return entries[i]; });
 }
 
+void PairList::erase(std::span<const uint32_t> places) {
+  if (places.empty()) return;
+  size_t size = places[0];
+  for (size_t k = 0; k < places.size(); ++k) {
+    free_.push_back(order_[places[k]].record);
+    const size_t next = k + 1 < places.size() ? places[k + 1] : order_.size();
+    std::copy(order_.begin() + places[k] + 1, order_.begin() + static_cast<std::ptrdiff_t>(next),
+              order_.begin() + static_cast<std::ptrdiff_t>(size));
+    size += next - places[k] - 1;
+  }
+  order_.resize(size);
+}
+
 void PairList::sortStrayed(Jobs& jobs) {
   if (strayed_ <= order_.size() / kMostStrayed) return;
-  spare_.resize(order_.size());
+  spare_.resize(order_.size(), jobs);
   jobs.forRange(static_cast<uint32_t>(order_.size()), 256, [&](uint32_t begin, uint32_t end, int) {
     for (uint32_t i = begin; i < end; ++i) {
       prefetch(i + kAhead);

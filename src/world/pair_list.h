@@ -80,6 +80,8 @@ class PairList {
   /// Takes out the pairs of which is(i) holds. It is asked once for each in order, and finds all from i on in place.
   template <class Is>
   void eraseIf(Is&& is);
+  /// Takes out the pairs at these places, which ascend.
+  void erase(std::span<const uint32_t> places);
   /// Puts the records in order where too many are out of it.
   void sortStrayed(Jobs& jobs);
 
@@ -95,6 +97,7 @@ class PairList {
     return {pair.key(), record, !pair.isTrigger && !pair.hasSurface, pair.pointCount > 0};
   }
   uint32_t takeRecord();
+  void takeRecords(size_t count, Jobs& jobs);
   void add(std::span<const Entry> entries);
 
   std::vector<Entry> order_;
@@ -118,8 +121,7 @@ void PairList::assign(size_t count, Fill&& fill) {
 
 template <class Fill>
 void PairList::insert(std::span<const uint64_t> keys, Fill&& fill, Jobs& jobs) {
-  fresh_.resize(keys.size());
-  for (Entry& entry : fresh_) entry.record = takeRecord();
+  takeRecords(keys.size(), jobs);
   jobs.forRange(static_cast<uint32_t>(keys.size()), 64, [&](uint32_t begin, uint32_t end, int) {
     for (uint32_t i = begin; i < end; ++i) {
       const uint32_t record = fresh_[i].record;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/jobs.h"
 #include "world/pair_data.h"
 
 namespace avbd {
@@ -33,6 +34,15 @@ class PairRecords {
   /// New records hold what was there before. Memory is kept.
   void resize(size_t size) {
     while (blocks_.size() * kBlock < size) blocks_.emplace_back(new PairData[kBlock]);
+    size_ = size;
+  }
+  /// The same, the memory found and first written by the threads of the jobs.
+  void resize(size_t size, Jobs& jobs) {
+    const size_t had = blocks_.size();
+    blocks_.resize(std::max(had, (size + kBlock - 1) / kBlock));
+    jobs.forRange(static_cast<uint32_t>(blocks_.size() - had), 1, [&](uint32_t begin, uint32_t end, int) {
+      for (size_t i = had + begin; i < had + end; ++i) blocks_[i].reset(new PairData[kBlock]);
+    });
     size_ = size;
   }
   void swap(PairRecords& other) noexcept {
