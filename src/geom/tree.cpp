@@ -20,6 +20,7 @@ float area(const Aabb& a) {
 }
 
 constexpr int kMostLopsided = 8;
+constexpr size_t kParts = 24;     ///< that may be refitted at once
 constexpr float kMostBeside = 2;  ///< of its own surface: what a shifted leaf may add to that of its sibling
 
 }  // namespace
@@ -56,7 +57,7 @@ bool DynamicTree::fitsBeside(int32_t leaf, const Aabb& box) const {
   return area(merge(beside, box)) - area(beside) <= kMostBeside * area(box);
 }
 
-void DynamicTree::shift(std::span<const Shift> leaves) {
+void DynamicTree::shift(std::span<const Shift> leaves, Jobs& jobs) {
   for (const auto& [proxy, box] : leaves)
     if (fitsBeside(proxy, box))
       at(proxy).box = box;
@@ -64,22 +65,34 @@ void DynamicTree::shift(std::span<const Shift> leaves) {
       move(proxy, box);
   for (const auto& [proxy, box] : leaves)
     for (int32_t i = at(proxy).parent; i >= 0 && !at(i).userData; i = at(i).parent) at(i).userData = 1;
-  refitMarked();
+  refitMarked(jobs);
 }
 
-/// Children before their parents: the list is level by level, from its end.
-void DynamicTree::refitMarked() {
-  marked_.clear();
-  if (root_ >= 0 && at(root_).height > 0 && at(root_).userData) marked_.push_back(root_);
-  for (size_t k = 0; k < marked_.size(); ++k) {
-    at(marked_[k]).userData = 0;
-    for (const int32_t child : at(marked_[k]).child)
-      if (at(child).height > 0 && at(child).userData) marked_.push_back(child);
+/// A node's refit and rotation read and write nothing but what is below it, so parts of the tree that do not hold each
+/// other may go at once, and what is above them after.
+void DynamicTree::refitMarked(Jobs& jobs) {
+  above_.clear();
+  if (root_ >= 0 && isMarked(root_)) above_.push_back(root_);
+  size_t parts = 0;  // from here on
+  for (; parts < above_.size() && above_.size() - parts < kParts; ++parts)
+    for (const int32_t child : at(above_[parts]).child)
+      if (isMarked(child)) above_.push_back(child);
+  jobs.forRange(static_cast<uint32_t>(above_.size() - parts), 1,
+                [&](uint32_t part, uint32_t, int) { refitBelow(above_[parts + part]); });
+  while (parts-- > 0) {
+    at(above_[parts]).userData = 0;
+    refit(above_[parts]);
+    rotate(above_[parts]);
   }
-  for (size_t k = marked_.size(); k-- > 0;) {
-    refit(marked_[k]);
-    rotate(marked_[k]);
-  }
+}
+
+/// The marked node and those below it.
+void DynamicTree::refitBelow(int32_t i) {
+  at(i).userData = 0;
+  for (int side = 0; side < 2; ++side)
+    if (isMarked(at(i).child[side])) refitBelow(at(i).child[side]);
+  refit(i);
+  rotate(i);
 }
 
 int32_t DynamicTree::takeNode() {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/jobs.h"
 #include "geom/aabb.h"
 
 namespace avbd {
@@ -46,7 +47,7 @@ class DynamicTree {
     int32_t proxy;
     Aabb box;
   };
-  void shift(std::span<const Shift> leaves);
+  void shift(std::span<const Shift> leaves, Jobs& jobs);
   const Aabb& box(int32_t proxy) const { return nodes_[static_cast<size_t>(proxy)].box; }
   uint32_t userData(int32_t proxy) const { return nodes_[static_cast<size_t>(proxy)].userData; }
   size_t size() const { return leafCount_; }
@@ -111,7 +112,9 @@ class DynamicTree {
   void refit(int32_t i);
   void refitUpwards(int32_t i);
   bool fitsBeside(int32_t leaf, const Aabb& box) const;
-  void refitMarked();
+  bool isMarked(int32_t i) const { return at(i).height > 0 && at(i).userData != 0; }
+  void refitMarked(Jobs& jobs);
+  void refitBelow(int32_t i);
   void rotate(int32_t i);
   void exchange(int32_t parent, int side, int grandSide);
 
@@ -119,7 +122,7 @@ class DynamicTree {
   int32_t root_ = -1;
   int32_t free_ = -1;
   size_t leafCount_ = 0;
-  std::vector<int32_t> marked_;  ///< spare memory of shift()
+  std::vector<int32_t> above_;  ///< spare memory of shift()
 };
 
 /// Nodes still to visit: on the stack while they fit, beyond that on the heap.

@@ -104,6 +104,7 @@ struct Crowd {
   std::mt19937 random{7};
   std::uniform_real_distribution<float> place{-20, 20}, drift{-0.5f, 0.5f};
   DynamicTree tree;
+  Jobs jobs{1, {}};
   std::vector<int32_t> proxies;
   std::vector<Vec3> centers;
   explicit Crowd(uint32_t count) {
@@ -119,7 +120,7 @@ struct Crowd {
       centers[i] = random() % 50 == 0 ? any(place) : centers[i] + any(drift);
       shifts.push_back({proxies[i], cube(centers[i], 1)});
     }
-    tree.shift(shifts);
+    tree.shift(shifts, jobs);
   }
   double surface() const {
     double sum = 0;
@@ -144,8 +145,9 @@ TEST(Tree, shiftedLeavesAreFoundWhereTheyAre) {
     ASSERT_EQ(found, expected);
   }
   Crowd one(0);
-  one.tree.shift({});
-  one.tree.shift(std::vector<DynamicTree::Shift>{{one.tree.insert(cube({}, 1), 3), cube({9, 0, 0}, 1)}});
+  one.tree.shift({}, one.jobs);
+  const DynamicTree::Shift far{one.tree.insert(cube({}, 1), 3), cube({9, 0, 0}, 1)};
+  one.tree.shift({&far, 1}, one.jobs);
   EXPECT_EQ(find(one.tree, cube({9, 0, 0}, 1)), std::vector<uint32_t>{3});
 }
 
@@ -159,7 +161,7 @@ TEST(Tree, shiftingKeepsItAsGoodAsANewOne) {
   EXPECT_LT(shifted, 1.3 * crowd.surface());
 }
 
-TEST(Tree, sameCallsGiveTheSameTree) {
+TEST(Tree, sameCallsGiveTheSameTreeWithAnyNumberOfThreads) {
   DynamicTree trees[2];
   std::vector<uint32_t> found[2];
   for (int t = 0; t < 2; ++t) {
@@ -171,7 +173,8 @@ TEST(Tree, sameCallsGiveTheSameTree) {
     for (size_t i = 0; i < 500; i += 3) trees[t].move(proxies[i], cube({place(random), 0, 0}, 1));
     std::vector<DynamicTree::Shift> shifts;
     for (size_t i = 0; i < 500; i += 2) shifts.push_back({proxies[i], cube({place(random), place(random), 0}, 2)});
-    trees[t].shift(shifts);
+    Jobs jobs(t == 0 ? 1 : 4, {});
+    trees[t].shift(shifts, jobs);
     for (size_t i = 0; i < 500; i += 5) trees[t].remove(proxies[i]);
     found[t] = find(trees[t], cube({}, 10));
   }
@@ -180,6 +183,8 @@ TEST(Tree, sameCallsGiveTheSameTree) {
   ASSERT_EQ(trees[0].nodes().size(), trees[1].nodes().size());
   for (size_t i = 0; i < trees[0].nodes().size(); ++i)
     EXPECT_EQ(trees[0].nodes()[i].parent, trees[1].nodes()[i].parent);
+  for (size_t i = 0; i < trees[0].nodes().size(); ++i)
+    EXPECT_EQ(trees[0].nodes()[i].box.lower, trees[1].nodes()[i].box.lower);
 }
 
 TEST(Tree, scalesExactlyByPowersOfTwo) {

@@ -67,7 +67,7 @@ void refit(WorldData& world, StepData& step, size_t begin) {
       step.shifts[i] = {shape.proxy, sweptBounds(world.bodies[shape.body], shape, 2 * step.h, margin)};
     }
   });
-  world.tree.shift(step.shifts);
+  world.tree.shift(step.shifts, *step.jobs);
 }
 
 /// Shapes that were made or set to another place, or that wake.
