@@ -89,6 +89,7 @@ struct ScalarJoints {
   uint32_t tiles = 0;
 };
 
+struct SweptContact;
 struct LinkedJoint;
 
 /// Joints over any number of bodies, one at a time (linked_joint.h).
@@ -135,6 +136,7 @@ struct BatchView {
   PairTiles<rows::BallJoint> balls;  ///< those that no tree holds
   PairTiles<rows::FixedJoint> fixed;
   PairTiles<rows::FullContact> full;
+  std::span<const SweptContact> swept;  ///< contacts whose rows follow the iterations (swept_contact.h)
   TetTiles tets;
   ScalarJoints scalar;
   LinkedJoints linked;

@@ -14,6 +14,7 @@
 #include "solve/locks.h"
 #include "solve/parts.h"
 #include "solve/scalar_joint.h"
+#include "solve/swept_contact.h"
 
 namespace avbd {
 
@@ -231,6 +232,7 @@ void stamp(const BatchView& view, const KrylovTools& tools, const SolveSettings&
   });
   parts.seams([&](Slice tiles) { k.stampContacts(view, settings, outer, tiles); });
   k.stampOthers(view, settings, outer);
+  stiffenSwept(view);
   stampScalar(view, settings.jointLeak, dual, scratch.unsolved.data());
   stampLinked(view, dual ? settings.jointLeak : 1, scratch.unsolved.data());
   if (forest) forest->stamp(view, scratch.unsolved.data());
@@ -243,14 +245,34 @@ void stamp(const BatchView& view, const KrylovTools& tools, const SolveSettings&
   if (forest) forest->factor(view, scratch.unsolved.data());
 }
 
+/// What is struck on its way whips what is tied to it: rows far from their turn send an iteration astray, and shortened
+/// one by one the bodies would leave their joints.
+constexpr float kMostTurnSwept = 0.15f;  ///< [rad] an iteration
+
+void shortenTogether(const BatchView& view) {
+  for (uint32_t n = 0; n < view.islands; ++n) {
+    const IslandRange& island = view.island[n];
+    float most = 0;
+    for (uint32_t i = island.begin; i < island.end; ++i) {
+      const rows::V3<float> turn = readTwist(view.x, i).ang;
+      most = rows::max(most, dot(turn, turn));
+    }
+    if (most <= kMostTurnSwept * kMostTurnSwept) continue;
+    const float share = kMostTurnSwept / rows::sqrt(most);
+    for (uint32_t i = 8 * island.begin; i < 8 * island.end; ++i) view.x[i] *= share;
+  }
+}
+
 void iterate(const BatchView& view, const KrylovTools& tools, const SolveSettings& settings, Forest* forest,
              Phase phase, KrylovScratch& scratch) {
   if (phase == Phase::Newton) {
     moveMultipliers(view, view.balls, settings.jointLeak, scratch.unsolved.data());
     moveMultipliers(view, view.fixed, settings.jointLeak, scratch.unsolved.data());
   }
+  if (phase != Phase::First) lineariseSwept(view);
   stamp(view, tools, settings, forest, phase, scratch);
   Krylov(view, tools, forest, scratch).solve(settings.krylovIterations);
+  if (!view.swept.empty()) shortenTogether(view);
   Parts(view, tools.jobs).chunks([&](const Chunk& chunk) { tools.backend.moveRows(view, kMostTurn, chunk.rows); });
   takeLinkedForces(view, scratch.unsolved.data());
   if (forest) forest->updateMultipliers(scratch.unsolved.data());

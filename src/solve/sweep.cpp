@@ -8,6 +8,7 @@
 #include "solve/linked_joint.h"
 #include "solve/locks.h"
 #include "solve/scalar_joint.h"
+#include "solve/swept_contact.h"
 
 namespace avbd {
 
@@ -59,6 +60,7 @@ void solveSweep(const BatchView& view, const Backend& backend, const SolveSettin
   plan.build(view, colors);
   const SweepView sweep = plan.view();
   for (int i = 0; i < settings.iterations; ++i) {
+    if (i > 0) lineariseSwept(view);
     backend.stageRecords(view, sweep, settings, i > 0);
     // Always in the same order. To and fro, the last colour would be the next iteration's first, where little has moved
     // since: with the few colours of a pile that wastes a good part of the work (docs/performance.md).

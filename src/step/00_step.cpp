@@ -34,10 +34,8 @@ Stepper::~Stepper() = default;
 
 namespace {
 
-void substep(WorldData& world, StepData& step) {
-  if (world.contactHook && world.hookedShapes > 0 && step.substep == 0) rememberPairs(world, step);
-  run(Stage::Pairs, findPairs, world, step);
-  run(Stage::Contacts, findContacts, world, step);
+/// From the contacts to where the bodies would go, and what tied ones would pass on that way.
+void solve(WorldData& world, StepData& step) {
   run(Stage::Islands, findIslands, world, step);
   run(Stage::Colors, colorBlocks, world, step);
   run(Stage::BeginRows, beginRows, world, step);
@@ -45,6 +43,20 @@ void substep(WorldData& world, StepData& step) {
   run(Stage::SolveBlocks, solveBlocks, world, step);
   run(Stage::UpdateRows, updateRows, world, step);
   run(Stage::Velocities, updateVelocities, world, step);
+  run(Stage::Continuous, findTiedImpacts, world, step);
+}
+
+void substep(WorldData& world, StepData& step) {
+  if (world.contactHook && world.hookedShapes > 0 && step.substep == 0) rememberPairs(world, step);
+  step.round = 0;
+  step.swept.clear(), step.tied.refused.clear();
+  run(Stage::Pairs, findPairs, world, step);
+  run(Stage::Contacts, findContacts, world, step);
+  solve(world, step);
+  for (step.round = 1; !step.tied.meetings.empty(); ++step.round) {
+    run(Stage::Contacts, sweepContacts, world, step);
+    solve(world, step);
+  }
   run(Stage::Continuous, stopAtImpacts, world, step);
   run(Stage::Sleep, chooseSleepers, world, step);
   run(Stage::Publish, publish, world, step);

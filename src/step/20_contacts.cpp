@@ -4,6 +4,7 @@
 #include "collide/collide.h"
 #include "step/contacts.h"
 #include "step/sleeping.h"
+#include "world/pairs.h"
 
 namespace avbd {
 
@@ -136,7 +137,26 @@ void findWoken(WorldData& world, StepData& step) {
   }
 }
 
+void wakeMet(WorldData& world, StepData& step) {
+  if (!wakeTouched(world, step)) return;
+  noteAll(world, step);
+  findWoken(world, step);
+  addOverflow(world, step);
+}
+
 }  // namespace
+
+void renewContacts(WorldData& world, StepData& step) {
+  noteAll(world, step);
+  wakeMet(world, step);
+  for (size_t i = 0; i < step.changes.size(); ++i) {
+    const TiedData::Place& at = step.tied.changed[i];
+    step.changes[i].pair = static_cast<uint32_t>(findPair(world, at.key) + at.patch);
+  }
+  if (world.contactHook) askHookAgain(world, step);
+  world.report.contacts = world.report.points = 0;
+  for (const FoundContact& found : step.found) count(world.report, found.points);
+}
 
 void findContacts(WorldData& world, StepData& step) {
   step.overflow.clear();
@@ -145,11 +165,7 @@ void findContacts(WorldData& world, StepData& step) {
   findManifolds(world, step);
   findRest(world, step, 0, world.pairs.size());
   addOverflow(world, step);
-  if (wakeTouched(world, step)) {
-    noteAll(world, step);
-    findWoken(world, step);
-    addOverflow(world, step);
-  }
+  wakeMet(world, step);
   if (world.contactHook) askHook(world, step);
 }
 

@@ -1,5 +1,6 @@
 // Rows: lays out the batches and fills masses, constants and remembered multipliers.
 #include "step/begin_rows.h"
+#include "step/swept_contacts.h"
 
 namespace avbd {
 
@@ -12,6 +13,7 @@ void beginRows(WorldData& world, StepData& step) {
     step.backend->prepareContacts(view, step.solve, unit.tiles);
   });
   fillFullContacts(world, step);
+  listSwept(world, step);
   fillJoints(world, step);
   for (size_t i = 0; i < step.batches.size(); ++i) step.backend->prepareOthers(step.view(i), step.solve);
 }

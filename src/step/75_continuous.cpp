@@ -21,17 +21,6 @@ bool isBefore(const PlannedImpact& x, const PlannedImpact& y) {
 /// For a heap with the first impact on top.
 bool isAfter(const PlannedImpact& x, const PlannedImpact& y) { return isBefore(y, x); }
 
-/// Whether a joint ties a body to another that moves. Such a body is an obstacle to others, but goes its own way: to
-/// stop it would take from the solver what it moved to keep the joints, step after step, until they tear.
-bool isTied(const WorldData& world, uint32_t body) {
-  return anyJoint(world, body, [&](uint32_t slot) {
-    if (!acts(world, slot)) return false;
-    bool tied = false;
-    forEachBody(world, slot, [&](uint32_t other) { tied = tied || (other != body && isDynamic(world, other)); });
-    return tied;
-  });
-}
-
 class Search {
  public:
   Search(WorldData& world, StepData& step) : world_(world), step_(step), c_(step.continuous) {}
@@ -39,7 +28,7 @@ class Search {
   void run() {
     const auto fast = static_cast<uint32_t>(c_.bodies.size());
     c_.meets.clear(), c_.queue.clear(), c_.visits.clear();
-    for (uint32_t i = 0; i < fast; ++i) c_.bodies[i].box = boxOf(i);
+    for (uint32_t i = 0; i < fast; ++i) c_.bodies[i].box = boundsOnWay(world_, c_.bodies[i].motion, c_.bodies[i].slot);
     meetEachOther(fast);
     for (uint32_t i = 0; i < fast; ++i) meetOthers(i, true);
     askAll();
@@ -54,18 +43,6 @@ class Search {
  private:
   const BodyData& bodyOf(const MovedBody& moved) const { return world_.bodies[moved.slot]; }
   bool isDynamic(const MovedBody& moved) const { return bodyOf(moved).type == BodyType::Dynamic; }
-
-  Aabb boxOf(uint32_t index) const {
-    const MovedBody& moved = c_.bodies[index];
-    Aabb box{{kFarAway, kFarAway, kFarAway}, {-kFarAway, -kFarAway, -kFarAway}};
-    for (uint32_t s = bodyOf(moved).firstShape; s != kNone; s = world_.shapes[s].next) {
-      const Aabb one = boundsOnWay(moved.motion, world_.shapes[s], bodyOf(moved).radius);
-      const Vec3 lower = one.lower, upper = one.upper;
-      box.lower = {std::min(box.lower.x, lower.x), std::min(box.lower.y, lower.y), std::min(box.lower.z, lower.z)};
-      box.upper = {std::max(box.upper.x, upper.x), std::max(box.upper.y, upper.y), std::max(box.upper.z, upper.z)};
-    }
-    return box;
-  }
 
   uint32_t indexOf(uint32_t slot) {
     if (c_.indexOf[slot] != kNone) return c_.indexOf[slot];
@@ -254,28 +231,15 @@ void addFast(const WorldData& world, StepData& step, uint32_t slot, Vec3 way, Ve
   const float size = body.minExtent > 0 ? body.minExtent : kSpeculative * world.def.lengthUnit;
   // A ball that turns goes nowhere.
   const float far = length(way) + length(turn) * std::max(body.radius - body.minExtent, 0.0f);
-  if (!body.continuous || far <= kFastWay * size || body.firstShape == kNone || isTied(world, slot)) return;
+  if (!body.continuous || far <= kFastWay * size || body.firstShape == kNone) return;
+  const bool tied = isTied(world, slot), kinematic = body.type == BodyType::Kinematic;
+  if (tied || kinematic) step.tied.bodies.push_back(slot);
+  step.tied.any = step.tied.any || tied || (kinematic && !world.sleep.joints.empty());
+  if (tied) return;
   ContinuousData& c = step.continuous;
   c.bodies.push_back({});
   c.bodies.back().slot = slot;
   c.bodies.back().isFast = true;
-}
-
-void listFast(const WorldData& world, StepData& step) {
-  ContinuousData& c = step.continuous;
-  c.bodies.clear();
-  for (uint32_t i = 0; i < step.order.size(); ++i) {
-    const float* d = step.d.data() + size_t(8) * step.rowOfEnd[i];
-    addFast(world, step, step.order[i], {d[0], d[1], d[2]}, {d[4], d[5], d[6]});
-  }
-  for (const uint32_t slot : step.kinematic) {
-    const BodyData& body = world.bodies[slot];
-    addFast(world, step, slot, body.linearVelocity * step.h, body.angularVelocity * step.h);
-  }
-  if (c.bodies.empty()) return;
-  c.indexOf.assign(world.bodies.size(), kNone);
-  for (uint32_t i = 0; i < c.bodies.size(); ++i) c.indexOf[c.bodies[i].slot] = i;
-  for (MovedBody& moved : c.bodies) moved.motion = motionOf(world, step, moved.slot);
 }
 
 /// What carries a body does not move it along or about what is locked.
@@ -307,10 +271,27 @@ void endThere(const WorldData& world, StepData& step, const MovedBody& moved) {
 
 }  // namespace
 
+void listFast(const WorldData& world, StepData& step) {
+  ContinuousData& c = step.continuous;
+  c.bodies.clear(), step.tied.bodies.clear();
+  step.tied.any = false;
+  for (uint32_t i = 0; i < step.order.size(); ++i) {
+    const float* d = step.d.data() + size_t(8) * step.rowOfEnd[i];
+    addFast(world, step, step.order[i], {d[0], d[1], d[2]}, {d[4], d[5], d[6]});
+  }
+  for (const uint32_t slot : step.kinematic) {
+    const BodyData& body = world.bodies[slot];
+    addFast(world, step, slot, body.linearVelocity * step.h, body.angularVelocity * step.h);
+  }
+  if (c.bodies.empty()) return;
+  c.indexOf.assign(world.bodies.size(), kNone);
+  for (uint32_t i = 0; i < c.bodies.size(); ++i) c.indexOf[c.bodies[i].slot] = i;
+  for (MovedBody& moved : c.bodies) moved.motion = motionOf(world, step, moved.slot);
+}
+
 void stopAtImpacts(WorldData& world, StepData& step) {
   if (step.substep == 0) step.continuous.crossings.clear();
   if (!world.def.continuous) return;
-  listFast(world, step);
   if (step.continuous.bodies.empty()) return;
   world.report.fastBodies += static_cast<uint32_t>(step.continuous.bodies.size());
   Search(world, step).run();

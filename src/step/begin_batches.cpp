@@ -213,6 +213,7 @@ BatchView StepData::view(size_t index) {
   v.linked = {linked.data() + b.linkedBegin, b.linkedCount};
   v.full = {full.data() + b.fullTile, fullRow[0].data() + b.fullTile * kTile, fullRow[1].data() + b.fullTile * kTile,
             b.fullTiles};
+  v.swept = {sweptLanes.data() + b.sweptBegin, b.sweptCount};
   v.fullOp = fullOp.data() + b.fullTile;
   v.tets.tile = tets.data() + b.tetTile;
   v.tets.op = tetOp.data() + b.tetTile;

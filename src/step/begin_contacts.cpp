@@ -5,6 +5,7 @@
 #include "step/contact_impact.h"
 #include "step/restitution.h"
 #include "step/settings.h"
+#include "step/swept_contacts.h"
 
 namespace avbd {
 
@@ -33,7 +34,9 @@ rows::ContactPointRows<float> pointRows(const WorldData& world, const StepData& 
   PointMemory& memory = pair.points[i];
   const Vec3 slip =
       rotate(a.rotation, memory.anchorA) - rotate(b.rotation, memory.anchorB) - toFloat(b.position - a.position);
-  forgetImpact(memory);
+  // Later rounds find the next one's in its place.
+  if (step.round == 0) forgetImpact(memory);
+  memory.impact = 0;
   rows::ContactPointRows<float> p{};
   p.arm = toRow(pair.manifold.points[i].position);
   p.biasN = normalBias(world, step, pair.manifold.points[i].separation);
@@ -62,6 +65,14 @@ void moveSurface(const StepData& step, const PairData& pair, Vec3 belt, rows::Co
   }
 }
 
+/// Of a contact that is met on the way: the rows are those of where it is.
+void followSwept(const WorldData& world, const StepData& step, const PairData& pair, rows::Contact<float>& c) {
+  const SweptPair* swept = sweptOf(step, pair);
+  if (!swept) return;
+  const SweptContact rows = sweptRows(world, step, pair, *swept);
+  linearise(rows, rows.metA, rows.metB, c);
+}
+
 rows::Contact<float> contactRows(const WorldData& world, const StepData& step, PairData& pair, float leak) {
   rows::Contact<float> c{};
   c.n = toRow(pair.normal), c.t1 = toRow(pair.t1), c.t2 = toRow(pair.t2);
@@ -79,6 +90,7 @@ rows::Contact<float> contactRows(const WorldData& world, const StepData& step, P
     c.point[i] = pointRows(world, step, pair, i, leak);
     c.point[i].arm = c.point[i].arm - c.armA;
   }
+  if (!step.swept.empty()) followSwept(world, step, pair, c);
   noteImpacts(world, step, pair, c);
   return c;
 }

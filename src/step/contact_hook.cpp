@@ -2,8 +2,10 @@
 #include <algorithm>
 
 #include "step/contacts.h"
+#include "step/swept_contacts.h"
 #include "world/check.h"
 #include "world/limits.h"
+#include "world/pairs.h"
 
 namespace avbd {
 
@@ -11,7 +13,7 @@ namespace {
 
 constexpr double kMaxMassScale = 1e3;
 
-ContactPlan planOf(const WorldData& world, const PairData& pair) {
+ContactPlan planOf(const WorldData& world, const StepData& step, const PairData& pair) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   ContactPlan plan;
   plan.shapeA = pair.shapeId(0), plan.shapeB = pair.shapeId(1);
@@ -19,14 +21,13 @@ ContactPlan planOf(const WorldData& world, const PairData& pair) {
   if (pair.hasSurface) (isSurface(world.shapes[pair.shapeA].geom.type) ? plan.elementA : plan.elementB) = pair.element;
   plan.normal = pair.manifold.normal;
   plan.pointCount = pair.manifold.count;
-  const Vec3 fromAToB = toFloat(b.position - a.position);
   for (int i = 0; i < pair.manifold.count; ++i) {
-    const Vec3 armA = pair.manifold.points[i].position;
+    const ContactArms arms = armsOf(world, step, pair, i);
     const size_t at = static_cast<size_t>(i);
-    plan.positions[at] = pair.origin + armA;
+    plan.positions[at] = pair.origin + pair.manifold.points[i].position;
     plan.separations[at] = pair.manifold.points[i].separation;
-    plan.velocities[at] = b.linearVelocity + cross(b.angularVelocity, armA - fromAToB) - a.linearVelocity -
-                          cross(a.angularVelocity, armA);
+    plan.velocities[at] =
+        b.linearVelocity + cross(b.angularVelocity, arms.b) - a.linearVelocity - cross(a.angularVelocity, arms.a);
   }
   plan.staticFriction = pair.staticFriction, plan.friction = pair.friction, plan.restitution = pair.restitution;
   plan.torsionalFriction = pair.torsionalFriction, plan.rollingFriction = pair.rollingFriction;
@@ -78,27 +79,43 @@ void obey(const WorldData& world, StepData& step, uint32_t index, PairData& pair
   if (moves || scales) step.changes.push_back(change);
 }
 
+/// Whether the hook accepts a pair's contact.
+bool ask(WorldData& world, StepData& step, uint32_t index) {
+  PairData& pair = world.pairs[index];
+  ContactPlan plan = planOf(world, step, pair);
+  const bool accepted = world.contactHook(plan);
+  if (accepted) {
+    checkPlan(plan, world.def.lengthUnit);
+    obey(world, step, index, pair, plan);
+  } else {
+    forgetContact(world, step, pair);
+    step.touchChanges.push_back(pair.key());
+  }
+  step.found[index] = foundContact(world, pair);
+  return accepted;
+}
+
 }  // namespace
 
 void askHook(WorldData& world, StepData& step) {
   for (uint32_t i = 0; i < world.pairs.size(); ++i) {
-    if (step.found[i].points == 0) continue;
-    PairData& pair = world.pairs[i];
-    if (!pair.hasHook) continue;
-    ContactPlan plan = planOf(world, pair);
-    const bool accepted = world.contactHook(plan);
-    if (!accepted) {
-      --world.report.contacts;
-      world.report.points -= static_cast<uint32_t>(pair.pointCount);
-      forgetContact(world, step, pair);
-      step.touchChanges.push_back(pair.key());
-      step.found[i] = foundContact(world, pair);
-      continue;
-    }
-    checkPlan(plan, world.def.lengthUnit);
-    obey(world, step, i, pair, plan);
-    step.found[i] = foundContact(world, pair);
+    const int points = step.found[i].points;
+    if (points == 0 || !world.pairs[i].hasHook || ask(world, step, i)) continue;
+    --world.report.contacts;
+    world.report.points -= static_cast<uint32_t>(points);
   }
+}
+
+void askHookAgain(WorldData& world, StepData& step) {
+  for (const SweptPair& swept : step.swept) {
+    const auto index = static_cast<uint32_t>(findPair(world, swept.key) + swept.patch);
+    const PairData& pair = world.pairs[index];
+    if (!pair.hasHook || pair.pointCount == 0 || swept.round != step.round) continue;
+    std::erase_if(step.changes, [&](const ContactChange& change) { return change.pair == index; });
+    if (!ask(world, step, index)) step.tied.refused.push_back(swept.key);
+  }
+  std::sort(step.changes.begin(), step.changes.end(),
+            [](const ContactChange& x, const ContactChange& y) { return x.pair < y.pair; });
 }
 
 void rememberPairs(const WorldData& world, StepData& step) {

@@ -3,6 +3,7 @@
 
 #include "avbd/rows/math.h"
 #include "step/contacts.h"
+#include "step/swept_contacts.h"
 
 namespace avbd {
 
@@ -144,9 +145,9 @@ void rememberPoints(WorldData& world, const StepData& step, PairData& pair) {
 /// Fast enough along the surface that friction cannot hold it within the step.
 void beginSlide(const WorldData& world, const StepData& step, PairData& pair, Vec3 belt) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
-  const Vec3 armA = pair.manifold.points[0].position, armB = armA - toFloat(b.position - a.position);
+  const ContactArms arms = armsOf(world, step, pair, 0);
   const Vec3 motion =
-      b.linearVelocity + cross(b.angularVelocity, armB) - a.linearVelocity - cross(a.angularVelocity, armA) - belt;
+      b.linearVelocity + cross(b.angularVelocity, arms.b) - a.linearVelocity - cross(a.angularVelocity, arms.a) - belt;
   const Vec3 slip = motion - pair.normal * dot(motion, pair.normal);
   pair.slides = 0;
   pair.landedSliding = length(slip) > pair.staticFriction * length(world.def.gravity) * step.h;

@@ -19,15 +19,18 @@ class Run {
   Run(WorldData& world, StepData& step, size_t begin, size_t end)
       : world_(world), step_(step), begin_(begin), size_(end - begin), head_(world.pairs[begin]) {}
 
-  void collide() {
+  NearPair now() const {
+    return {nearPose(a(), world_.shapes[head_.shapeA], a().position),
+            nearPose(b(), world_.shapes[head_.shapeB], a().position), speculativeMargin(world_, a(), b(), step_.h)};
+  }
+
+  void collide(const NearPair& near) {
     const ShapeData &shapeA = world_.shapes[head_.shapeA], &shapeB = world_.shapes[head_.shapeB];
     surfaceIsA_ = isSurface(shapeA.geom.type);
-    const NearPose poseA = nearPose(a(), shapeA, a().position), poseB = nearPose(b(), shapeB, a().position);
-    const float margin = speculativeMargin(world_, a(), b(), step_.h);
     if (surfaceIsA_)
-      collideSurface(shapeB.geom, poseB, shapeA.geom, poseA, margin, step_.patches);
+      collideSurface(shapeB.geom, near.b, shapeA.geom, near.a, near.margin, step_.patches);
     else
-      collideSurface(shapeA.geom, poseA, shapeB.geom, poseB, margin, step_.patches);
+      collideSurface(shapeA.geom, near.a, shapeB.geom, near.b, near.margin, step_.patches);
     if (!surfaceIsA_) return;
     for (SurfacePatch& patch : step_.patches) patch.manifold.normal = -patch.manifold.normal;
   }
@@ -194,7 +197,13 @@ class Run {
 
 void findPatches(WorldData& world, StepData& step, size_t begin, size_t end) {
   Run run(world, step, begin, end);
-  run.collide();
+  run.collide(run.now());
+  run.fill();
+}
+
+void findPatches(WorldData& world, StepData& step, size_t begin, size_t end, const NearPair& near) {
+  Run run(world, step, begin, end);
+  run.collide(near);
   run.fill();
 }
 

@@ -5,6 +5,12 @@
 
 namespace avbd {
 
+/// Where two shapes are, relative to the centre of mass of the first one's body when the step began.
+struct NearPair {
+  NearPose a, b;
+  float margin = 0;  ///< [m] within which contacts are looked for
+};
+
 NearPose nearPose(const BodyData& body, const ShapeData& shape, Vec3d origin);
 /// Smaller half thickness of two bodies; a body without bounded shapes does not count.
 float smallerSize(const BodyData& a, const BodyData& b);
@@ -55,14 +61,21 @@ void combineMaterials(PairData& pair, const Material& a, const Material& b);
 /// Patches of the pairs world.pairs[begin .. end), one run, which has a surface; those for which the run is too short
 /// go to step.overflow (contact_surface.cpp).
 void findPatches(WorldData& world, StepData& step, size_t begin, size_t end);
+void findPatches(WorldData& world, StepData& step, size_t begin, size_t end, const NearPair& near);
 /// Puts step.overflow into the list, behind the runs that they belong to.
 void lengthenRuns(WorldData& world, StepData& step);
+
+/// Brings what a step knows of all contacts up to date once some of them were changed: wakes what is met, asks the
+/// hook.
+void renewContacts(WorldData& world, StepData& step);
 
 /// Whether a trigger and its visitor overlap (contact_trigger.cpp).
 bool overlaps(const WorldData& world, StepData& step, const PairData& pair);
 
 /// Lets the user's hook see and change contacts; throws Error for what it may not say (contact_hook.cpp).
 void askHook(WorldData& world, StepData& step);
+/// The same for what later rounds of a step have found on the way: the places of all other pairs may have changed.
+void askHookAgain(WorldData& world, StepData& step);
 /// For askHook: to undo a step that it stops.
 void rememberPairs(const WorldData& world, StepData& step);
 void restorePairs(WorldData& world, StepData& step);

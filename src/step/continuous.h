@@ -6,6 +6,8 @@
 // - Something that stands still, or another body that is fast itself: both stop where they touch.
 // - Something that goes on (a kinematic body, a slow body): it takes the fast body along.
 // Velocities stay, so momentum does: the next step finds a contact that is about to be hit, and solves it.
+//
+// A body that is tied to others by joints is not stopped: continuous_tied.cpp.
 #pragma once
 
 #include <avbd/events.h>
@@ -15,6 +17,7 @@
 
 #include "collide/time_of_impact.h"
 #include "geom/aabb.h"
+#include "solve/swept_contact.h"
 #include "world/world_data.h"
 
 namespace avbd {
@@ -38,6 +41,8 @@ BodyMotion carried(const Pose& pose, const BodyMotion& by, float time, Vec3 norm
 ShapeMotion motionOf(const BodyMotion& body, const ShapeData& shape, Vec3d origin);
 /// Bounds of a shape on all its way.
 Aabb boundsOnWay(const BodyMotion& body, const ShapeData& shape, float radius);
+/// The same of all shapes of a body.
+Aabb boundsOnWay(const WorldData& world, const BodyMotion& motion, uint32_t body);
 /// How far the motions of two bodies may bring them closer or apart, at most.
 float relativeWay(const BodyMotion& a, float radiusA, const BodyMotion& b, float radiusB);
 
@@ -83,12 +88,57 @@ struct ContinuousData {
   std::vector<TriggerEvent> crossings;  ///< triggers that were entered and left, of all substeps so far
 };
 
+/// Two bodies on their way to where shapes of theirs meet.
+struct TiedImpact {
+  uint64_t key = 0;      ///< of the shapes
+  BodyMotion motion[2];  ///< of the bodies of the lower and the higher shape
+  float time = 0;
+};
+
+/// A contact of the pose where the pair meets.
+struct SweptPair {
+  uint64_t key = 0;
+  uint16_t patch = 0;
+  int round = 0;   ///< of the step, that it is for
+  float time = 1;  ///< of the step, when they meet
+  SweptContact rows;
+  Vec3 armA[4], armB[4];  ///< from the centres of mass to the points when they meet
+};
+
+/// What the search for impacts of tied bodies needs (continuous_tied.cpp).
+struct TiedData {
+  std::vector<uint32_t> bodies;  ///< slots: fast ones that are tied, and fast kinematic ones
+  bool any = false;              ///< some of them may meet a tied one
+  std::vector<uint64_t> keys;    ///< of shapes that may meet
+  std::vector<TiedImpact> meetings;
+  std::vector<uint32_t> taken;    ///< bodies that have met something in this round
+  std::vector<uint64_t> refused;  ///< keys, ascending: in this substep the hook has let them pass
+  struct Place {
+    uint64_t key;
+    uint16_t patch;
+  };
+  std::vector<Place> changed;  ///< of StepData::changes: the list of pairs moves under them
+  struct Box {
+    Aabb box;
+    uint32_t body;
+  };
+  std::vector<Box> boxes;  ///< on all their ways
+};
+
 inline constexpr float kFastWay = 0.5f;  ///< of a half thickness: who moves farther in a step is fast
 
 /// The convex shape of two first; of two convex ones the lower slot.
 std::array<uint32_t, 2> inOrder(const WorldData& world, uint32_t shapeA, uint32_t shapeB);
 /// When the two shapes meet so that the rest of their way would take them through each other.
 Impact impactOf(const WorldData& world, const StepData& step, const ShapesMeet& meet, float from);
+/// The same of shapes in order, and how their bodies move.
+Impact impactOf(const WorldData& world, const StepData& step, const std::array<uint32_t, 2>& shapes,
+                const std::array<const BodyMotion*, 2>& motions, float from);
+/// Lists the fast bodies, those that are tied apart.
+void listFast(const WorldData& world, StepData& step);
+/// Whether a joint ties a body to another that moves (continuous_tied.cpp). Behind the solve such a body is an obstacle
+/// to others, but goes its own way.
+bool isTied(const WorldData& world, uint32_t body);
 /// Triggers that a fast body passed through between the poses at which overlaps are looked for.
 void findCrossings(WorldData& world, StepData& step);
 

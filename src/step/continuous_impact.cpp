@@ -60,9 +60,8 @@ class Pair {
   const ShapeMotion &motionA_, &motionB_;
 };
 
-Question questionOf(const WorldData& world, const StepData& step, const ShapesMeet& meet, float size) {
-  const bool hooked =
-      world.contactHook && (world.shapes[meet.shape[0]].contactHook || world.shapes[meet.shape[1]].contactHook);
+Question questionOf(const WorldData& world, const StepData& step, const std::array<uint32_t, 2>& shapes, float size) {
+  const bool hooked = world.contactHook && (world.shapes[shapes[0]].contactHook || world.shapes[shapes[1]].contactHook);
   Question q{};
   q.deep = std::max(kDeep * size, kLeastDeep * step.slop);
   q.deepTouching = std::max(kDeepTouching * size, q.deep);
@@ -97,19 +96,26 @@ Impact onSurface(const ShapeGeom& a, const ShapeMotion& motionA, const ShapeGeom
 
 }  // namespace
 
-Impact impactOf(const WorldData& world, const StepData& step, const ShapesMeet& meet, float from) {
-  const MovedBody &a = step.continuous.bodies[meet.body[0]], &b = step.continuous.bodies[meet.body[1]];
-  const BodyData &bodyA = world.bodies[a.slot], &bodyB = world.bodies[b.slot];
+Impact impactOf(const WorldData& world, const StepData& step, const std::array<uint32_t, 2>& shapes,
+                const std::array<const BodyMotion*, 2>& motions, float from) {
+  const ShapeData &shapeA = world.shapes[shapes[0]], &shapeB = world.shapes[shapes[1]];
+  const BodyData &bodyA = world.bodies[shapeA.body], &bodyB = world.bodies[shapeB.body];
+  const BodyMotion &a = *motions[0], &b = *motions[1];
   const float size = smallerSize(bodyA, bodyB);
-  if (relativeWay(a.motion, bodyA.radius, b.motion, bodyB.radius) <= kFastWay * size) return {};
-  const ShapeData &shapeA = world.shapes[meet.shape[0]], &shapeB = world.shapes[meet.shape[1]];
-  const Vec3d origin = at(a.motion, from).position;
-  const ShapeMotion motionA = motionOf(a.motion, shapeA, origin), motionB = motionOf(b.motion, shapeB, origin);
-  Question q = questionOf(world, step, meet, size);
+  if (relativeWay(a, bodyA.radius, b, bodyB.radius) <= kFastWay * size) return {};
+  const Vec3d origin = at(a, from).position;
+  const ShapeMotion motionA = motionOf(a, shapeA, origin), motionB = motionOf(b, shapeB, origin);
+  Question q = questionOf(world, step, shapes, size);
   q.from = from;
   if (isSurface(shapeB.geom.type)) return onSurface(shapeA.geom, motionA, shapeB.geom, motionB, q);
   if (shapeB.geom.type == ShapeType::HalfSpace && motionB.turn != Vec3{}) return {};
   return Pair(shapeA.geom, motionA, shapeB.geom, motionB).counts(q, 1, [](float own) { return own; });
+}
+
+Impact impactOf(const WorldData& world, const StepData& step, const ShapesMeet& meet, float from) {
+  const std::vector<MovedBody>& bodies = step.continuous.bodies;
+  return impactOf(world, step, {meet.shape[0], meet.shape[1]},
+                  {&bodies[meet.body[0]].motion, &bodies[meet.body[1]].motion}, from);
 }
 
 }  // namespace avbd

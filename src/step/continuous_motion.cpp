@@ -88,6 +88,17 @@ Aabb boundsOnWay(const BodyMotion& body, const ShapeData& shape, float radius) {
   return box;
 }
 
+Aabb boundsOnWay(const WorldData& world, const BodyMotion& motion, uint32_t body) {
+  Aabb box{{kFarAway, kFarAway, kFarAway}, {-kFarAway, -kFarAway, -kFarAway}};
+  for (uint32_t s = world.bodies[body].firstShape; s != kNone; s = world.shapes[s].next) {
+    const Aabb one = boundsOnWay(motion, world.shapes[s], world.bodies[body].radius);
+    const Vec3 lower = one.lower, upper = one.upper;
+    box.lower = {std::min(box.lower.x, lower.x), std::min(box.lower.y, lower.y), std::min(box.lower.z, lower.z)};
+    box.upper = {std::max(box.upper.x, upper.x), std::max(box.upper.y, upper.y), std::max(box.upper.z, upper.z)};
+  }
+  return box;
+}
+
 float relativeWay(const BodyMotion& a, float radiusA, const BodyMotion& b, float radiusB) {
   return length(a.shift - b.shift) + turningReach(a.turn, radiusA + length(a.arm)) +
          turningReach(b.turn, radiusB + length(b.arm));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "step/swept_contacts.h"
 #include "world/bodies.h"
 #include "world/pairs.h"
 
@@ -13,22 +14,21 @@ namespace {
 
 void noteHit(const WorldData& world, StepData& step, const PairData& pair, const PointForces& forces) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
-  const Vec3 fromAToB = toFloat(b.position - a.position);
   HitRecord hit;
   hit.key = pair.key();
   hit.order = static_cast<uint32_t>(step.hits.size());
   hit.event = {pair.shapeId(0), pair.shapeId(1), pair.bodyId(0), pair.bodyId(1), pair.origin, pair.normal, 0, 0};
   for (int i = 0; i < pair.pointCount; ++i) {
     if (!(forces[static_cast<size_t>(i)] > 0)) continue;
-    const Vec3 armA = pair.manifold.points[i].position;
-    const Vec3 motion = a.linearVelocity + cross(a.angularVelocity, armA) - b.linearVelocity -
-                        cross(b.angularVelocity, armA - fromAToB);
+    const ContactArms arms = armsOf(world, step, pair, i);
+    const Vec3 motion =
+        a.linearVelocity + cross(a.angularVelocity, arms.a) - b.linearVelocity - cross(b.angularVelocity, arms.b);
     const float speed = dot(pair.normal, motion);
     hit.event.impulse += forces[static_cast<size_t>(i)] * step.h;
     // A landing may take two steps: a point that already carries is no new hit.
     if (pair.points[i].lambda.x > 0 || speed <= hit.event.speed) continue;
     hit.event.speed = speed;
-    hit.event.position = pair.origin + armA;
+    hit.event.position = pair.origin + pair.manifold.points[i].position;
   }
   if (hit.event.impulse > 0) step.hits.push_back(hit);
 }

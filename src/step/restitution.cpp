@@ -5,6 +5,7 @@
 
 #include "step/begin_rows.h"
 #include "step/free_motion.h"
+#include "step/swept_contacts.h"
 
 namespace avbd {
 
@@ -44,8 +45,8 @@ Bounce makeBounce(const WorldData& world, const StepData& step, uint32_t index, 
   bounce.pair = index, bounce.point = i;
   bounce.scaleA = change.scaleA, bounce.scaleB = change.scaleB;
   bounce.n = pair.normal;
-  bounce.armA = pair.manifold.points[i].position;
-  bounce.armB = bounce.armA - toFloat(world.bodies[pair.bodyB].position - pair.origin);
+  const ContactArms arms = armsOf(world, step, pair, i);
+  bounce.armA = arms.a, bounce.armB = arms.b;
   addSide(world, step, pair.bodyA, bounce.armA, -1, bounce);
   addSide(world, step, pair.bodyB, bounce.armB, 1, bounce);
   bounce.speed = pair.points[i].rebound;
@@ -82,11 +83,10 @@ float separationSpeed(const StepData& step, const Bounce& bounce) {
 
 Rebound rebound(const WorldData& world, const StepData& step, const PairData& pair, int i) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
-  const Vec3 armA = pair.manifold.points[i].position;
-  const Vec3 armB = armA - toFloat(b.position - a.position);
+  const ContactArms arms = armsOf(world, step, pair, i);
   const float h = step.h;
-  const float approach = dot(pair.normal, velocityAt(a.linearVelocity, a.angularVelocity, armA) -
-                                              velocityAt(b.linearVelocity, b.angularVelocity, armB));
+  const float approach = dot(pair.normal, velocityAt(a.linearVelocity, a.angularVelocity, arms.a) -
+                                              velocityAt(b.linearVelocity, b.angularVelocity, arms.b));
   const float pull = dot(pair.normal, accelerationOf(world, a) - accelerationOf(world, b));
   const float gap = std::max(pair.manifold.points[i].separation, 0.0f);
   const float now = approach + pull * (0.5f * h);  // at the start of the step

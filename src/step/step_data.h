@@ -42,6 +42,7 @@ struct BatchRange {
   uint32_t scalarTile = 0, scalarTiles = 0, scalarCount = 0;
   uint32_t linkedBegin = 0, linkedCount = 0;
   uint32_t lockedBegin = 0, lockedCount = 0;
+  uint32_t sweptBegin = 0, sweptCount = 0;
   uint32_t forest = kNone;                  ///< in StepData::forests
   uint32_t chunkBegin = 0, chunkCount = 0;  ///< in StepData::chunks
   uint32_t seamBegin = 0, seamCount = 0;    ///< in StepData::seams
@@ -345,6 +346,12 @@ struct StepData {
   std::vector<uint32_t> endOf;     ///< index in end, by body slot
 
   ContinuousData continuous;  // 75_continuous
+  TiedData tied;
+  int round = 0;                         ///< how often this substep was solved before
+  std::vector<float> startTime;          ///< by island: of the step, where its iterations start
+  std::vector<SweptPair> swept;          ///< by key and patch: contacts that earlier rounds found on the way
+  std::vector<SweptContact> sweptLanes;  ///< by batch
+
   // 80_sleep
   std::vector<float> stillTime;   ///< [s] by StepData::order
   std::vector<uint32_t> falling;  ///< islands that fall asleep
@@ -387,6 +394,10 @@ void predict(WorldData& world, StepData& step);
 void solveBlocks(WorldData& world, StepData& step);
 void updateRows(WorldData& world, StepData& step);
 void updateVelocities(WorldData& world, StepData& step);
+/// What tied bodies meet on the way that the solve gave them: step.tied.meetings.
+void findTiedImpacts(WorldData& world, StepData& step);
+/// Makes contacts of it for the next solve.
+void sweepContacts(WorldData& world, StepData& step);
 void stopAtImpacts(WorldData& world, StepData& step);
 void chooseSleepers(WorldData& world, StepData& step);
 void publish(WorldData& world, StepData& step);
