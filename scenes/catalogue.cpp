@@ -15,7 +15,7 @@ void append(std::vector<Scene>& to, std::vector<Scene> from) {
 }
 
 // The order of the lists in the acceptance document; names say what a run prints.
-constexpr std::array<std::string_view, 86> kOrder{"rest",
+constexpr std::array<std::string_view, 87> kOrder{"rest",
                                                   "tower10",
                                                   "pyramid10",
                                                   "pyramid30",
@@ -44,6 +44,7 @@ constexpr std::array<std::string_view, 86> kOrder{"rest",
                                                   "deep_overlap",
                                                   "ghost_edges",
                                                   "bullet",
+                                                  "bullet_chain",
                                                   "million_to_one",
                                                   "chain",
                                                   "net",

@@ -85,8 +85,55 @@ std::vector<Figure> bullet(const Settings& settings) {
   return {ballAtWall(settings, false), ballAtWall(settings, true), rodAtPost(settings), ballsHeadOn(settings)};
 }
 
+/// Capsules of 0.4 m, jointed end to end along `axis`; the joints are those between them.
+struct Links {
+  std::vector<BodyId> bodies;
+  std::vector<JointId> joints;
+};
+Links addLinks(Build& build, int count, Vec3d at, double angle, Velocity velocity) {
+  const Quat turn = turned({0, 0, 1}, angle);
+  const Vec3d step = rotate(turn, Vec3d{0, 0.4, 0});
+  Links links;
+  for (int i = 0; i < count; ++i) {
+    links.bodies.push_back(build.add("link" + text(i), {.position = at + step * double(i),
+                                                        .rotation = turn,
+                                                        .linearVelocity = velocity.linear,
+                                                        .shape = Capsule{0.05f, 0.15f},
+                                                        .mass = 1}));
+    const size_t n = links.bodies.size();
+    if (n > 1)
+      links.joints.push_back(build.joint(links.bodies[n - 2], links.bodies[n - 1], at + step * (double(i) - 0.5)));
+  }
+  return links;
+}
+
+// Fly at a wall from 24 places, each at another angle.
+std::vector<Figure> chainAtWall(const Settings& settings, int count, float speed) {
+  double farthest = -1e9, gap = 0;
+  for (int i = 0; i < 24; ++i) {
+    Build build("bullet_chain", settings, weightless());
+    build.fixedBox("wall", {0.01f, 20, 20}, {0, 0, 0});
+    const Links links = addLinks(build, count, {-5 - 0.37 * i, 0.1, 0}, 0.26 * i, {{speed, 3, -2}, {}});
+    Model model = build.take();
+    for (int k = 0; k < 40; ++k) {
+      model.world.step(static_cast<float>(kDt));
+      for (const BodyId link : links.bodies) farthest = std::max(farthest, model.world.pose(link).position.x);
+      for (const JointId joint : links.joints) gap = std::max(gap, model.world.gap(joint));
+    }
+  }
+  const std::string params = "links=" + text(count) + " speed=" + text(double{speed});
+  return {{"link_x", params, farthest, -100, 0, "m"}, {"gap", params, gap, 0, 0.1, "m"}};
+}
+
+std::vector<Figure> bulletChain(const Settings& settings) {
+  std::vector<Figure> figures = chainAtWall(settings, 2, 30);
+  figures.push_back(chainAtWall(settings, 2, 100).front());
+  figures.push_back(chainAtWall(settings, 10, 50).front());
+  return figures;
+}
+
 }  // namespace
 
-std::vector<Line> continuousLines() { return {{"R", "bullet", bullet, ""}}; }
+std::vector<Line> continuousLines() { return {{"R", "bullet", bullet, ""}, {"R", "bullet_chain", bulletChain, ""}}; }
 
 }  // namespace avbd::scenes

@@ -249,17 +249,22 @@ void stamp(const BatchView& view, const KrylovTools& tools, const SolveSettings&
 /// one by one the bodies would leave their joints.
 constexpr float kMostTurnSwept = 0.15f;  ///< [rad] an iteration
 
-void shortenTogether(const BatchView& view) {
-  for (uint32_t n = 0; n < view.islands; ++n) {
-    const IslandRange& island = view.island[n];
-    float most = 0;
-    for (uint32_t i = island.begin; i < island.end; ++i) {
-      const rows::V3<float> turn = readTwist(view.x, i).ang;
-      most = rows::max(most, dot(turn, turn));
-    }
-    if (most <= kMostTurnSwept * kMostTurnSwept) continue;
-    const float share = kMostTurnSwept / rows::sqrt(most);
-    for (uint32_t i = 8 * island.begin; i < 8 * island.end; ++i) view.x[i] *= share;
+void shortenTogether(const BatchView& view, const IslandRange& island) {
+  float most = 0;
+  for (uint32_t i = island.begin; i < island.end; ++i) {
+    const rows::V3<float> turn = readTwist(view.x, i).ang;
+    most = rows::max(most, dot(turn, turn));
+  }
+  if (most <= kMostTurnSwept * kMostTurnSwept) return;
+  const float share = kMostTurnSwept / rows::sqrt(most);
+  for (uint32_t i = 8 * island.begin; i < 8 * island.end; ++i) view.x[i] *= share;
+}
+
+/// Of islands that whip. Once for each contact that they do so at: once shortened, they stay.
+void shortenWhips(const BatchView& view) {
+  for (const SweptContact& s : view.swept) {
+    const uint32_t *a = s.isFull ? view.full.a : view.contacts.a, *b = s.isFull ? view.full.b : view.contacts.b;
+    if (s.whips) shortenTogether(view, islandOf(view, a[s.lane] < view.bodies ? a[s.lane] : b[s.lane]));
   }
 }
 
@@ -272,7 +277,7 @@ void iterate(const BatchView& view, const KrylovTools& tools, const SolveSetting
   if (phase != Phase::First) lineariseSwept(view);
   stamp(view, tools, settings, forest, phase, scratch);
   Krylov(view, tools, forest, scratch).solve(settings.krylovIterations);
-  if (!view.swept.empty()) shortenTogether(view);
+  shortenWhips(view);
   Parts(view, tools.jobs).chunks([&](const Chunk& chunk) { tools.backend.moveRows(view, kMostTurn, chunk.rows); });
   takeLinkedForces(view, scratch.unsolved.data());
   if (forest) forest->updateMultipliers(scratch.unsolved.data());

@@ -21,6 +21,7 @@ struct SweptContact {
   bool isFull = false;                ///< or full contacts
   bool planeOnA = false;              ///< whose plane
   bool turns = true;                  ///< the plane, with its body; one that only touches something round does not
+  bool whips = false;                 ///< the bodies may turn far once they are held
   int count = 0;                      ///< points, in the order of the rows
   rows::V3<float> n, plane;           ///< normal; a point of the plane from its body's centre
   rows::V3<float> core[4];            ///< from the other body's centre

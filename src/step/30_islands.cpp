@@ -119,8 +119,14 @@ uint32_t islandOfJoint(const WorldData& world, const StepData& step, uint32_t sl
   return island;
 }
 
-/// What is met at a metre a step turns by a radian within it: its rows follow, iteration by iteration.
-constexpr int kSweptFactor = 8;
+/// What is met on the way turns within the step, and its rows follow, iteration by iteration.
+constexpr float kTurnAnIteration = 0.1f;  ///< [rad]
+constexpr int kSweptFactor = 8;            ///< of the iterations of a step: the most that are taken
+
+int iterationsFor(const WorldData& world, float turn) {
+  const int most = kSweptFactor * world.def.iterations;
+  return static_cast<int>(std::min(turn * (1 / kTurnAnIteration), static_cast<float>(most)));
+}
 
 /// Islands with contacts that are met on the way take more iterations. Where both bodies move, force and counter-force
 /// act far from each other as the step begins, so no rigid motion of the start keeps the angular momentum.
@@ -129,7 +135,7 @@ void noteSwept(const WorldData& world, StepData& step) {
     const size_t index = findPair(world, swept.key) + swept.patch;
     if (step.found[index].points == 0) continue;
     Island& island = step.islands[islandOfPair(step, step.found[index])];
-    island.iterations = std::max(island.iterations, kSweptFactor * world.def.iterations);
+    if (swept.rows.whips) island.iterations = std::max(island.iterations, iterationsFor(world, swept.turn));
     if (step.found[index].isBetweenDynamic()) island.floating = false;
   }
 }

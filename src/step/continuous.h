@@ -102,6 +102,7 @@ struct SweptPair {
   int round = 0;   ///< of the step, that it is for
   float time = 1;  ///< of the step, when they meet
   SweptContact rows;
+  float turn = 0;         ///< [rad] that the bodies may turn by when they are held
   Vec3 armA[4], armB[4];  ///< from the centres of mass to the points when they meet
 };
 
@@ -131,9 +132,10 @@ inline constexpr float kFastWay = 0.5f;  ///< of a half thickness: who moves far
 std::array<uint32_t, 2> inOrder(const WorldData& world, uint32_t shapeA, uint32_t shapeB);
 /// When the two shapes meet so that the rest of their way would take them through each other.
 Impact impactOf(const WorldData& world, const StepData& step, const ShapesMeet& meet, float from);
-/// The same of shapes in order, and how their bodies move.
+/// The same of shapes in order, and how their bodies move. `tied`: the step would have to be solved again, so only what
+/// is as deep as the thinner one's half thickness counts.
 Impact impactOf(const WorldData& world, const StepData& step, const std::array<uint32_t, 2>& shapes,
-                const std::array<const BodyMotion*, 2>& motions, float from);
+                const std::array<const BodyMotion*, 2>& motions, float from, bool tied);
 /// Lists the fast bodies, those that are tied apart.
 void listFast(const WorldData& world, StepData& step);
 /// Whether a joint ties a body to another that moves (continuous_tied.cpp). Behind the solve such a body is an obstacle

@@ -16,6 +16,7 @@ namespace {
 
 // Of the smaller half thickness.
 constexpr float kDeep = 0.25f;         ///< who comes deeper than this passes through
+constexpr float kDeepTied = 0.5f;         ///< the same of tied ones
 constexpr float kDeepTouching = 0.5f;  ///< the same of what touched before
 constexpr float kDeeper = 0.25f;       ///< what may be added to a depth in one step
 constexpr float kLeastDeep = 3;        ///< of the slop, which resting contacts keep
@@ -60,10 +61,11 @@ class Pair {
   const ShapeMotion &motionA_, &motionB_;
 };
 
-Question questionOf(const WorldData& world, const StepData& step, const std::array<uint32_t, 2>& shapes, float size) {
+Question questionOf(const WorldData& world, const StepData& step, const std::array<uint32_t, 2>& shapes, float size,
+                    bool tied) {
   const bool hooked = world.contactHook && (world.shapes[shapes[0]].contactHook || world.shapes[shapes[1]].contactHook);
   Question q{};
-  q.deep = std::max(kDeep * size, kLeastDeep * step.slop);
+  q.deep = std::max((tied ? kDeepTied : kDeep) * size, kLeastDeep * step.slop);
   q.deepTouching = std::max(kDeepTouching * size, q.deep);
   q.deeper = kDeeper * size;
   q.margin = kSpeculative * world.def.lengthUnit;
@@ -97,7 +99,7 @@ Impact onSurface(const ShapeGeom& a, const ShapeMotion& motionA, const ShapeGeom
 }  // namespace
 
 Impact impactOf(const WorldData& world, const StepData& step, const std::array<uint32_t, 2>& shapes,
-                const std::array<const BodyMotion*, 2>& motions, float from) {
+                const std::array<const BodyMotion*, 2>& motions, float from, bool tied) {
   const ShapeData &shapeA = world.shapes[shapes[0]], &shapeB = world.shapes[shapes[1]];
   const BodyData &bodyA = world.bodies[shapeA.body], &bodyB = world.bodies[shapeB.body];
   const BodyMotion &a = *motions[0], &b = *motions[1];
@@ -105,7 +107,7 @@ Impact impactOf(const WorldData& world, const StepData& step, const std::array<u
   if (relativeWay(a, bodyA.radius, b, bodyB.radius) <= kFastWay * size) return {};
   const Vec3d origin = at(a, from).position;
   const ShapeMotion motionA = motionOf(a, shapeA, origin), motionB = motionOf(b, shapeB, origin);
-  Question q = questionOf(world, step, shapes, size);
+  Question q = questionOf(world, step, shapes, size, tied);
   q.from = from;
   if (isSurface(shapeB.geom.type)) return onSurface(shapeA.geom, motionA, shapeB.geom, motionB, q);
   if (shapeB.geom.type == ShapeType::HalfSpace && motionB.turn != Vec3{}) return {};
@@ -115,7 +117,7 @@ Impact impactOf(const WorldData& world, const StepData& step, const std::array<u
 Impact impactOf(const WorldData& world, const StepData& step, const ShapesMeet& meet, float from) {
   const std::vector<MovedBody>& bodies = step.continuous.bodies;
   return impactOf(world, step, {meet.shape[0], meet.shape[1]},
-                  {&bodies[meet.body[0]].motion, &bodies[meet.body[1]].motion}, from);
+                  {&bodies[meet.body[0]].motion, &bodies[meet.body[1]].motion}, from, false);
 }
 
 }  // namespace avbd

@@ -81,7 +81,7 @@ class TiedSearch {
     const std::array<uint32_t, 2> shapes = inOrder(world_, low, high);
     const bool swapped = shapes[0] != low;
     const Impact impact =
-        impactOf(world_, step_, shapes, {&meeting.motion[swapped ? 1 : 0], &meeting.motion[swapped ? 0 : 1]}, 0);
+        impactOf(world_, step_, shapes, {&meeting.motion[swapped ? 1 : 0], &meeting.motion[swapped ? 0 : 1]}, 0, true);
     meeting.time = impact.happens ? impact.time : 2;
     return meeting;
   }

@@ -308,6 +308,34 @@ TEST(TiedContinuous, ManyGiveTheSameBits) {
   const uint64_t hash = hashOf(*world, 20);
   EXPECT_EQ(hashOf(*build(4, 0), 20), hash);
   for (const int width : {1, 4}) EXPECT_EQ(hashOf(*build(1, width), 20), hash);
+  // Amid the impacts.
+  for (const int steps : {2, 3, 4, 5}) {
+    auto half = build(1, 0), other = build(1, 0);
+    hashOf(*half, steps);
+    std::vector<std::byte> snapshot;
+    half->save(snapshot);
+    other->restore(snapshot);
+    EXPECT_EQ(hashOf(*other, 20 - steps), hash) << steps;
+  }
+}
+
+TEST(TiedContinuous, SubstepsHoldToo) {
+  for (int turn = 0; turn < 12; ++turn) {
+    WorldDef def = weightless();
+    def.substeps = 4;
+    World world(def);
+    addWall(world);
+    const Chain chain(world, 2,
+                      {.position = {-3.2, 0.03, 0.02},
+                       .rotation = turned({0, 0, 1}, 0.26 + turn * 0.5236),
+                       .linearVelocity = {100, 3, -2}},
+                      0.15f, 0.05f);
+    for (int k = 0; k < 8; ++k) {
+      world.step(kDt);
+      ASSERT_LT(chain.farthest(world), 0) << turn << " " << k;
+    }
+    EXPECT_LT(chain.gap(world), 0.04) << turn;
+  }
 }
 
 }  // namespace

@@ -84,11 +84,20 @@ void placePoints(PairData& pair, const Met (&met)[2], const SweptPair& swept) {
   }
 }
 
+float smallerRadius(const BodyData& a, const BodyData& b) {
+  return std::min(a.radius > 0 ? a.radius : b.radius, b.radius > 0 ? b.radius : a.radius);
+}
+
+constexpr float kWhips = 1;  ///< [rad] in a step
+
 /// The pair has the points that it has when it meets, and remembers what it knows of them.
-void keepSwept(const WorldData& world, StepData& step, PairData& pair, const Met (&met)[2], float time) {
+void keepSwept(const WorldData& world, StepData& step, PairData& pair, const Met (&met)[2], const TiedImpact& impact) {
+  const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   const auto at = step.swept.insert(step.swept.begin() + static_cast<ptrdiff_t>(placeOf(step, pair)), SweptPair{});
-  at->key = pair.key(), at->patch = pair.patch, at->round = step.round, at->time = time;
+  at->key = pair.key(), at->patch = pair.patch, at->round = step.round, at->time = impact.time;
   fixToBodies(world, pair, met, *at);
+  at->turn = relativeWay(impact.motion[0], a.radius, impact.motion[1], b.radius) / smallerRadius(a, b);
+  at->rows.whips = at->turn > kWhips;
   placePoints(pair, met, *at);
   pair.kept.what = KeptManifold::What::Nothing;
   bool isNew = true;
@@ -98,8 +107,7 @@ void keepSwept(const WorldData& world, StepData& step, PairData& pair, const Met
 
 /// What the farther points of two shapes may come to when they have met.
 float marginOf(const BodyData& a, const BodyData& b, float way, float least) {
-  const float far = 2 * std::min(a.radius > 0 ? a.radius : b.radius, b.radius > 0 ? b.radius : a.radius);
-  return std::max(std::min(way, far), least);
+  return std::max(std::min(way, 2 * smallerRadius(a, b)), least);
 }
 
 NearPose poseOf(const ShapeData& shape, const Pose& body, Vec3d origin) {
@@ -156,7 +164,7 @@ bool sweepContact(WorldData& world, StepData& step, const TiedImpact& meeting) {
   for (size_t i = index, end = world.pairs.endOfRun(index); i < end; ++i) {
     PairData& pair = world.pairs[i];
     if (pair.pointCount == 0) continue;
-    keepSwept(world, step, pair, met, meeting.time);
+    keepSwept(world, step, pair, met, meeting);
     any = true;
   }
   return any;
