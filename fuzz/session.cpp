@@ -23,6 +23,7 @@ Session::Session(Bytes& in, int simdWidth) : in_(in) {
   def.simdWidth = simdWidth;
   const uint8_t odd = in_.byte();
   def.moveEvents = odd & 1;
+  def.continuousJointed = odd & 0x10;
   if (odd & 2) def.hitSpeed = 0.1f;
   if (odd & 4) def.krylovIterations = 3;
   if (odd >= 0xf0) def.lengthUnit = odd & 8 ? 0.001f : 1000;

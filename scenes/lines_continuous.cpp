@@ -111,7 +111,9 @@ Links addLinks(Build& build, int count, Vec3d at, double angle, Velocity velocit
 std::vector<Figure> chainAtWall(const Settings& settings, int count, float speed) {
   double farthest = -1e9, gap = 0;
   for (int i = 0; i < 24; ++i) {
-    Build build("bullet_chain", settings, weightless());
+    WorldDef def = weightless();
+    def.continuousJointed = true;
+    Build build("bullet_chain", settings, def);
     build.fixedBox("wall", {0.01f, 20, 20}, {0, 0, 0});
     const Links links = addLinks(build, count, {-5 - 0.37 * i, 0.1, 0}, 0.26 * i, {{speed, 3, -2}, {}});
     Model model = build.take();

@@ -44,6 +44,9 @@ struct WorldDef {
   /// Bodies that move far for their size in a step have their way searched, and stop for the rest of it where they
   /// would pass through something. They keep their velocity: the next step makes the impact.
   bool continuous = true;
+  /// So do those that joints tie to others that move. They cannot stop behind the solve: where they would pass, the
+  /// step is solved again, up to four times. Off, as a crowd of ragdolls that falls pays for that what its steps cost.
+  bool continuousJointed = false;
   PrimalSolver primalSolver = PrimalSolver::Krylov;
   int krylovIterations = 0;  ///< conjugate-gradient steps per outer iteration; 0 takes the default, <= 1000
   /// Where joints take their arms: 0 at the step's start (symplectic; unstable under heavy loads), 1 at its end

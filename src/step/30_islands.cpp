@@ -121,7 +121,7 @@ uint32_t islandOfJoint(const WorldData& world, const StepData& step, uint32_t sl
 
 /// What is met on the way turns within the step, and its rows follow, iteration by iteration.
 constexpr float kTurnAnIteration = 0.1f;  ///< [rad]
-constexpr int kSweptFactor = 8;            ///< of the iterations of a step: the most that are taken
+constexpr int kSweptFactor = 8;           ///< of the iterations of a step: the most that are taken
 
 int iterationsFor(const WorldData& world, float turn) {
   const int most = kSweptFactor * world.def.iterations;

@@ -16,7 +16,7 @@ namespace {
 
 // Of the smaller half thickness.
 constexpr float kDeep = 0.25f;         ///< who comes deeper than this passes through
-constexpr float kDeepTied = 0.5f;         ///< the same of tied ones
+constexpr float kDeepTied = 0.5f;      ///< the same of tied ones
 constexpr float kDeepTouching = 0.5f;  ///< the same of what touched before
 constexpr float kDeeper = 0.25f;       ///< what may be added to a depth in one step
 constexpr float kLeastDeep = 3;        ///< of the slop, which resting contacts keep

@@ -133,7 +133,7 @@ void findTiedImpacts(WorldData& world, StepData& step) {
   step.tied.meetings.clear();
   if (!world.def.continuous) return;
   listFast(world, step);
-  if (!step.tied.any || step.round == kMostRounds) return;
+  if (!world.def.continuousJointed || !step.tied.any || step.round == kMostRounds) return;
   TiedSearch(world, step).run();
 }
 

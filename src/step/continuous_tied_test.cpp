@@ -16,6 +16,7 @@ constexpr float kDt = 1.0f / 60;
 WorldDef weightless() {
   WorldDef def;
   def.gravity = {};
+  def.continuousJointed = true;
   return def;
 }
 
@@ -104,10 +105,10 @@ TEST(TiedContinuous, JointsHoldAtThirtyMetresASecond) {
   EXPECT_LE(open, 2);
 }
 
-// The same without continuous collision: it passes.
+// The same where nobody asks for it: it passes.
 TEST(TiedContinuous, SwitchedOffItPasses) {
   WorldDef def = weightless();
-  def.continuous = false;
+  def.continuousJointed = false;
   World world(def);
   addWall(world);
   const Chain chain(world, 2, {.position = {-3.2, 0, 0}, .linearVelocity = {100, 0, 0}}, 0.15f, 0.05f);
@@ -273,7 +274,7 @@ TEST(TiedContinuous, AFastKinematicWallTakesThemAlong) {
 }
 
 TEST(TiedContinuous, WhatSleepsIsWoken) {
-  World world;
+  World world({.continuousJointed = true});
   world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
   const BodyId box = world.create(BodyDef{.position = {0, 0.3, 0}, .shape = Box{0.02f, 0.3f, 0.3f}, .mass = 3});
   for (int k = 0; k < 120 && world.isAwake(box); ++k) world.step(kDt);
@@ -289,7 +290,7 @@ TEST(TiedContinuous, WhatSleepsIsWoken) {
 // Many ragged chains at a wall: for any number of workers and any lane width, and from a snapshot.
 TEST(TiedContinuous, ManyGiveTheSameBits) {
   const auto build = [](int workers, int width) {
-    auto world = std::make_unique<World>(WorldDef{.workers = workers, .simdWidth = width});
+    auto world = std::make_unique<World>(WorldDef{.workers = workers, .continuousJointed = true, .simdWidth = width});
     world->create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
     addWall(*world);
     for (int i = 0; i < 20; ++i)

@@ -34,8 +34,8 @@ constexpr size_t kHead = 40, kHashAt = 32;
 /// Of what a world was made with and cannot change. What changes no bit of a result is left out.
 uint64_t fingerprint(const WorldDef& def) {
   auto& [gravity, workers, iterations, substeps, lengthUnit, restitutionThreshold, maxDepenetrationSpeed, hitSpeed,
-         moveEvents, continuous, primalSolver, krylovIterations, jointArmBlend, sleep, sleepTime, sleepSpeed, simdWidth,
-         tasks] = def;
+         moveEvents, continuous, continuousJointed, primalSolver, krylovIterations, jointArmBlend, sleep, sleepTime,
+         sleepSpeed, simdWidth, tasks] = def;
   Hash64 hash;
   hash.value(lengthUnit);
   hash.value(restitutionThreshold);
@@ -46,6 +46,7 @@ uint64_t fingerprint(const WorldDef& def) {
   hash.value(static_cast<int32_t>(krylovIterations));
   hash.value(jointArmBlend);
   hash.value(static_cast<uint8_t>(continuous));
+  hash.value(static_cast<uint8_t>(continuousJointed));
   hash.value(static_cast<uint8_t>(sleep));
   hash.value(sleepTime);
   hash.value(sleepSpeed);
