@@ -85,7 +85,7 @@ std::vector<Figure> bullet(const Settings& settings) {
   return {ballAtWall(settings, false), ballAtWall(settings, true), rodAtPost(settings), ballsHeadOn(settings)};
 }
 
-/// Capsules of 0.4 m, jointed end to end along `axis`; the joints are those between them.
+/// Capsules of 0.4 m, jointed end to end; the joints are those between them.
 struct Links {
   std::vector<BodyId> bodies;
   std::vector<JointId> joints;

@@ -26,8 +26,6 @@ void addPieces(const std::vector<std::vector<T>>& of, std::vector<T>& all) {
   for (const std::vector<T>& list : of) all.insert(all.end(), list.begin(), list.end());
 }
 
-uint64_t pairKey(uint32_t a, uint32_t b) { return a < b ? uint64_t(a) << 32 | b : uint64_t(b) << 32 | a; }
-
 Vec3 lengthen(Vec3 bound, Vec3 motion, bool upper) {
   const auto grow = [upper](float at, float by) { return (upper ? by > 0 : by < 0) ? at + by : at; };
   return {grow(bound.x, motion.x), grow(bound.y, motion.y), grow(bound.z, motion.z)};
@@ -114,7 +112,7 @@ bool mayMeet(const WorldData& world, uint32_t shapeA, uint32_t shapeB) {
 /// Keys of a moved shape's pairs that are not in the list.
 void findKeys(const WorldData& world, uint32_t slot, std::vector<uint64_t>& keys) {
   world.tree.query(world.tree.box(world.shapes[slot].proxy), [&](uint32_t other) {
-    const uint64_t key = pairKey(slot, other);
+    const uint64_t key = slotPair(slot, other);
     if (findPair(world, key) < world.pairs.size()) return;
     if (mayMeet(world, slot, other) && mayTouch(world, slot, other)) keys.push_back(key);
   });

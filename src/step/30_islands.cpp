@@ -128,13 +128,15 @@ int iterationsFor(const WorldData& world, float turn) {
   return static_cast<int>(std::min(turn * (1 / kTurnAnIteration), static_cast<float>(most)));
 }
 
-/// Islands with contacts that are met on the way take more iterations. Where both bodies move, force and counter-force
+/// Islands with contacts that are met on the way start where the first is, as from far behind it no iteration finds
+/// back, and take more iterations. Where both bodies move, force and counter-force
 /// act far from each other as the step begins, so no rigid motion of the start keeps the angular momentum.
 void noteSwept(const WorldData& world, StepData& step) {
   for (const SweptPair& swept : step.swept) {
     const size_t index = findPair(world, swept.key) + swept.patch;
     if (step.found[index].points == 0) continue;
     Island& island = step.islands[islandOfPair(step, step.found[index])];
+    island.startTime = std::min(island.startTime, swept.time);
     if (swept.rows.whips) island.iterations = std::max(island.iterations, iterationsFor(world, swept.turn));
     if (step.found[index].isBetweenDynamic()) island.floating = false;
   }

@@ -7,6 +7,7 @@ namespace avbd {
 void beginRows(WorldData& world, StepData& step) {
   layOutBatches(world, step);
   fillBodies(world, step);
+  prepareSwept(world, step);
   forUnits(step, [&](const WorkUnit& unit) {
     const BatchView view = step.view(unit.batch);
     fillContacts(world, step, unit);

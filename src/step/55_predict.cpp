@@ -10,7 +10,6 @@
 #include "step/begin_chunks.h"
 #include "step/free_motion.h"
 #include "world/joints.h"
-#include "world/pairs.h"
 
 namespace avbd {
 
@@ -98,22 +97,15 @@ void predictBody(const WorldData& world, StepData& step, uint32_t index, uint32_
   write(step.d.data() + at, unlocked(start, body.locks), unlocked(body.angularVelocity * step.h, body.locks >> 3));
 }
 
-/// What meets something on its way starts where it does: from far behind that no iteration finds back.
-void startAtImpacts(const WorldData& world, StepData& step) {
-  std::vector<float>& time = step.startTime;
-  time.assign(step.islands.size(), 1);
-  for (const SweptPair& swept : step.swept) {
-    const size_t index = findPair(world, swept.key) + swept.patch;
-    if (step.found[index].points == 0) continue;
-    float& first = time[islandOfPair(step, step.found[index])];
-    first = std::min(first, swept.time);
-  }
+/// What meets something on its way starts where it does.
+void startAtImpacts(StepData& step) {
   for (const BatchRange& batch : step.batches)
     for (uint32_t n = batch.islandBegin; n < batch.islandBegin + batch.islandCount; ++n) {
-      if (time[n] == 1) continue;
+      const float time = step.islands[n].startTime;
+      if (time == 1) continue;
       const IslandRange& island = step.ranges[n];
       float* d = step.d.data() + size_t(8) * (batch.rowBegin + island.begin);
-      for (uint32_t i = 0; i < 8 * (island.end - island.begin); ++i) d[i] *= time[n];
+      for (uint32_t i = 0; i < 8 * (island.end - island.begin); ++i) d[i] *= time;
     }
 }
 
@@ -129,7 +121,7 @@ void predict(WorldData& world, StepData& step) {
   forUnits(step, [&](const WorkUnit& unit) {
     forBodies(step, unit, [&](uint32_t index, uint32_t row) { predictBody(world, step, index, row); });
   });
-  if (!step.swept.empty()) startAtImpacts(world, step);
+  if (!step.swept.empty()) startAtImpacts(step);
 }
 
 }  // namespace avbd

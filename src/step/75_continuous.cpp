@@ -82,28 +82,17 @@ class Search {
   void meet(uint32_t shapeA, uint32_t shapeB, bool first) {
     if (!mayTouch(world_, shapeA, shapeB)) return;
     if (!isVisit(shapeA, shapeB)) return addMeet(shapeA, shapeB);
-    if (first) c_.visits.push_back(uint64_t(std::min(shapeA, shapeB)) << 32 | std::max(shapeA, shapeB));
+    if (first) c_.visits.push_back(slotPair(shapeA, shapeB));
   }
 
   /// Fast bodies may have left their boxes in the tree.
   void meetEachOther(uint32_t fast) {
-    c_.byX.resize(fast);
-    for (uint32_t i = 0; i < fast; ++i) c_.byX[i] = i;
-    std::sort(c_.byX.begin(), c_.byX.end(), [&](uint32_t i, uint32_t k) {
-      const float x = c_.bodies[i].box.lower.x, y = c_.bodies[k].box.lower.x;
-      return x < y || (x == y && i < k);
-    });
-    for (uint32_t i = 0; i < fast; ++i)
-      for (uint32_t k = i + 1; k < fast; ++k) {
-        const MovedBody &a = c_.bodies[c_.byX[i]], &b = c_.bodies[c_.byX[k]];
-        if (b.box.lower.x > a.box.upper.x) break;
-        if (overlaps(a.box, b.box)) meetShapes(a.slot, b.slot);
-      }
-  }
-
-  void meetShapes(uint32_t a, uint32_t b) {
-    for (uint32_t s = world_.bodies[a].firstShape; s != kNone; s = world_.shapes[s].next)
-      for (uint32_t t = world_.bodies[b].firstShape; t != kNone; t = world_.shapes[t].next) meet(s, t, true);
+    forEachOverlap(
+        fast, c_.byX, [&](uint32_t i) -> const Aabb& { return c_.bodies[i].box; },
+        [&](uint32_t i, uint32_t k) {
+          forEachShapePair(world_, c_.bodies[i].slot, c_.bodies[k].slot,
+                           [&](uint32_t s, uint32_t t) { meet(s, t, true); });
+        });
   }
 
   /// Adds what a body's shapes meet in the tree.

@@ -66,11 +66,9 @@ void moveSurface(const StepData& step, const PairData& pair, Vec3 belt, rows::Co
 }
 
 /// Of a contact that is met on the way: the rows are those of where it is.
-void followSwept(const WorldData& world, const StepData& step, const PairData& pair, rows::Contact<float>& c) {
+void followSwept(const StepData& step, const PairData& pair, rows::Contact<float>& c) {
   const SweptPair* swept = sweptOf(step, pair);
-  if (!swept) return;
-  const SweptContact rows = sweptRows(world, step, pair, *swept);
-  linearise(rows, rows.metA, rows.metB, c);
+  if (swept) linearise(swept->rows, swept->rows.metA, swept->rows.metB, c);
 }
 
 rows::Contact<float> contactRows(const WorldData& world, const StepData& step, PairData& pair, float leak) {
@@ -90,7 +88,7 @@ rows::Contact<float> contactRows(const WorldData& world, const StepData& step, P
     c.point[i] = pointRows(world, step, pair, i, leak);
     c.point[i].arm = c.point[i].arm - c.armA;
   }
-  if (!step.swept.empty()) followSwept(world, step, pair, c);
+  if (!step.swept.empty()) followSwept(step, pair, c);
   noteImpacts(world, step, pair, c);
   return c;
 }

@@ -12,6 +12,7 @@
 
 #include <avbd/events.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -119,12 +120,33 @@ struct TiedData {
     uint16_t patch;
   };
   std::vector<Place> changed;  ///< of StepData::changes: the list of pairs moves under them
-  struct Box {
-    Aabb box;
-    uint32_t body;
-  };
-  std::vector<Box> boxes;  ///< on all their ways
+  std::vector<Aabb> boxes;     ///< of `bodies`, on all their ways
+  std::vector<uint32_t> byX;   ///< indices of those, for forEachOverlap()
 };
+
+/// Calls f(i, k) for each two of `count` boxes that overlap, in the order of their lower x. byX is its memory.
+template <class BoxOf, class F>
+void forEachOverlap(uint32_t count, std::vector<uint32_t>& byX, BoxOf&& boxOf, F&& f) {
+  byX.resize(count);
+  for (uint32_t i = 0; i < count; ++i) byX[i] = i;
+  std::sort(byX.begin(), byX.end(), [&](uint32_t i, uint32_t k) {
+    const float x = boxOf(i).lower.x, y = boxOf(k).lower.x;
+    return x < y || (x == y && i < k);
+  });
+  for (uint32_t i = 0; i < count; ++i)
+    for (uint32_t k = i + 1; k < count; ++k) {
+      const Aabb &a = boxOf(byX[i]), &b = boxOf(byX[k]);
+      if (b.lower.x > a.upper.x) break;
+      if (overlaps(a, b)) f(byX[i], byX[k]);
+    }
+}
+
+/// Calls f(shapeOfA, shapeOfB) for all of two bodies' shapes.
+template <class F>
+void forEachShapePair(const WorldData& world, uint32_t bodyA, uint32_t bodyB, F&& f) {
+  for (uint32_t s = world.bodies[bodyA].firstShape; s != kNone; s = world.shapes[s].next)
+    for (uint32_t t = world.bodies[bodyB].firstShape; t != kNone; t = world.shapes[t].next) f(s, t);
+}
 
 inline constexpr float kFastWay = 0.5f;  ///< of a half thickness: who moves farther in a step is fast
 

@@ -5,16 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "step/thin_walls.h"
+
 namespace avbd {
 namespace {
-
-constexpr float kDt = 1.0f / 60;
-
-WorldDef weightless() {
-  WorldDef def;
-  def.gravity = {};
-  return def;
-}
 
 /// One body flies at what stands in the plane x = 0. How far it comes along x, from starts all over a step's way.
 template <class Wall>
@@ -34,11 +28,6 @@ double farthest(const BodyDef& flyer, Wall addWall, WorldDef def = weightless())
   return far;
 }
 void addBoxWall(World& world) { world.create(BodyDef{.type = BodyType::Static, .shape = Box{0.01f, 2, 2}}); }
-Mesh sheet(float size, bool doubleSided) {
-  const std::vector<Vec3> v{{0, -size, -size}, {0, -size, size}, {0, size, size}, {0, size, -size}};
-  const std::vector<std::array<uint32_t, 3>> t{{0, 1, 2}, {0, 2, 3}};
-  return Mesh{makeMesh({.vertices = v, .triangles = t, .doubleSided = doubleSided})};
-}
 void addSheet(World& world) { world.create(BodyDef{.type = BodyType::Static, .shape = sheet(2, false)}); }
 void addHeights(World& world) {
   const std::vector<float> heights(25, 0.0f);

@@ -45,7 +45,7 @@ class TiedSearch {
     const ShapeData &a = world_.shapes[shapeA], &b = world_.shapes[shapeB];
     if (a.body == b.body || a.isTrigger || b.isTrigger || !mayTouch(world_, shapeA, shapeB)) return;
     if (!isHeld(a.body) && !isHeld(b.body)) return;
-    t_.keys.push_back(uint64_t(std::min(shapeA, shapeB)) << 32 | std::max(shapeA, shapeB));
+    t_.keys.push_back(slotPair(shapeA, shapeB));
   }
 
   void meetInTree(uint32_t body) {
@@ -58,18 +58,12 @@ class TiedSearch {
   /// They may have left their boxes in the tree.
   void meetEachOther() {
     t_.boxes.clear();
-    for (const uint32_t body : t_.bodies)
-      t_.boxes.push_back({boundsOnWay(world_, motionOf(world_, step_, body), body), body});
-    std::sort(t_.boxes.begin(), t_.boxes.end(), [](const TiedData::Box& x, const TiedData::Box& y) {
-      return x.box.lower.x < y.box.lower.x || (x.box.lower.x == y.box.lower.x && x.body < y.body);
-    });
-    for (size_t i = 0; i < t_.boxes.size(); ++i)
-      for (size_t k = i + 1; k < t_.boxes.size() && t_.boxes[k].box.lower.x <= t_.boxes[i].box.upper.x; ++k) {
-        if (!overlaps(t_.boxes[i].box, t_.boxes[k].box)) continue;
-        for (uint32_t s = world_.bodies[t_.boxes[i].body].firstShape; s != kNone; s = world_.shapes[s].next)
-          for (uint32_t u = world_.bodies[t_.boxes[k].body].firstShape; u != kNone; u = world_.shapes[u].next)
-            meet(s, u);
-      }
+    for (const uint32_t body : t_.bodies) t_.boxes.push_back(boundsOnWay(world_, motionOf(world_, step_, body), body));
+    forEachOverlap(
+        static_cast<uint32_t>(t_.boxes.size()), t_.byX, [&](uint32_t i) -> const Aabb& { return t_.boxes[i]; },
+        [&](uint32_t i, uint32_t k) {
+          forEachShapePair(world_, t_.bodies[i], t_.bodies[k], [&](uint32_t s, uint32_t t) { meet(s, t); });
+        });
   }
 
   TiedImpact ask(uint64_t key) const {

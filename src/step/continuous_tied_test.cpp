@@ -8,14 +8,14 @@
 #include <memory>
 #include <vector>
 
+#include "step/thin_walls.h"
+
 namespace avbd {
 namespace {
 
-constexpr float kDt = 1.0f / 60;
-
-WorldDef weightless() {
-  WorldDef def;
-  def.gravity = {};
+/// Where they do not pass what joints tie to others.
+WorldDef jointed() {
+  WorldDef def = weightless();
   def.continuousJointed = true;
   return def;
 }
@@ -66,7 +66,7 @@ TEST(TiedContinuous, TwoLinksDoNotPassAThinWall) {
   double gap = 0;
   for (int turn = 0; turn < 12; ++turn)
     for (int i = 0; i < 6; ++i) {
-      World world(weightless());
+      World world(jointed());
       addWall(world);
       const BodyDef first{.position = {-3 - 0.29 * i, 0.03, 0.02},
                           .rotation = turned({0, 0, 1}, 0.26 + turn * 0.5236),
@@ -86,7 +86,7 @@ TEST(TiedContinuous, JointsHoldAtThirtyMetresASecond) {
   int open = 0;
   double gap = 0;
   for (int turn = 0; turn < 24; ++turn) {
-    World world(weightless());
+    World world(jointed());
     addWall(world);
     const BodyDef first{.position = {-2.4, 0.03, 0.02},
                         .rotation = turned({0, 0, 1}, 0.26 + turn * 0.2618),
@@ -107,7 +107,7 @@ TEST(TiedContinuous, JointsHoldAtThirtyMetresASecond) {
 
 // The same where nobody asks for it: it passes.
 TEST(TiedContinuous, SwitchedOffItPasses) {
-  WorldDef def = weightless();
+  WorldDef def = jointed();
   def.continuousJointed = false;
   World world(def);
   addWall(world);
@@ -120,7 +120,7 @@ TEST(TiedContinuous, SwitchedOffItPasses) {
 TEST(TiedContinuous, AChainDoesNotPassAPost) {
   double gap = 0;
   for (int i = 0; i < 8; ++i) {
-    World world(weightless());
+    World world(jointed());
     const float angle = 0.5f + 0.1f * static_cast<float>(i);
     const Vec3d post{1.2 * std::cos(angle), 1.2 * std::sin(angle), 0};
     world.create(BodyDef{.type = BodyType::Static, .position = post, .shape = Box{0.02f, 0.02f, 1}});
@@ -155,7 +155,7 @@ TEST(TiedContinuous, WhatPassesBesideIsNotTouched) {
   for (int i = 0; i < 6; ++i) {
     std::vector<Pose> free;
     for (const bool box : {false, true}) {
-      World world(weightless());
+      World world(jointed());
       if (box) world.create(BodyDef{.type = BodyType::Static, .position = {0, -0.41, 0}, .shape = Box{0.01f, 0.3f, 1}});
       const Chain chain(world, 2,
                         {.position = {-3 - 0.29 * i, 0, 0},
@@ -184,7 +184,7 @@ TEST(TiedContinuous, WhatPassesBesideIsNotTouched) {
 TEST(TiedContinuous, ALightBoxIsPushedAndMomentumKept) {
   for (const double aside : {0.0, 0.1, 0.2})
     for (int i = 0; i < 6; ++i) {
-      World world(weightless());
+      World world(jointed());
       const BodyId box =
           world.create(BodyDef{.position = {0, aside - 0.2, 0}, .shape = Box{0.02f, 0.8f, 0.3f}, .mass = 0.5f});
       const Chain chain(world, 2, {.position = {-2.5 - 0.29 * i, 0, 0}, .linearVelocity = {100, 0, 0}, .mass = 2},
@@ -205,7 +205,7 @@ TEST(TiedContinuous, ALightBoxIsPushedAndMomentumKept) {
 // What does not rebound goes on together.
 TEST(TiedContinuous, TwoPairsHeadOn) {
   for (int i = 0; i < 6; ++i) {
-    World world(weightless());
+    World world(jointed());
     const Chain left(world, 2, {.position = {-3 - 0.17 * i, 0.1, 0}, .linearVelocity = {60, 0, 0}}, 0.15f, 0.05f);
     const Chain right(world, 2, {.position = {3, 0.13, 0}, .linearVelocity = {-60, 0, 0}}, 0.15f, 0.05f);
     for (int k = 0; k < 10; ++k) {
@@ -219,7 +219,7 @@ TEST(TiedContinuous, TwoPairsHeadOn) {
 
 TEST(TiedContinuous, WhatTheHookRefusesAndTriggersLetPass) {
   for (const bool trigger : {false, true}) {
-    World world(weightless());
+    World world(jointed());
     BodyDef wall{.type = BodyType::Static};
     wall.shapes.push_back({.geometry = Box{0.01f, 2, 2}, .isTrigger = trigger, .contactHook = !trigger});
     world.create(wall);
@@ -236,18 +236,12 @@ TEST(TiedContinuous, WhatTheHookRefusesAndTriggersLetPass) {
   }
 }
 
-Mesh sheet(bool doubleSided) {
-  const std::vector<Vec3> v{{0, -4, -4}, {0, -4, 4}, {0, 4, 4}, {0, 4, -4}};
-  const std::vector<std::array<uint32_t, 3>> t{{0, 1, 2}, {0, 2, 3}};
-  return Mesh{makeMesh({.vertices = v, .triangles = t, .doubleSided = doubleSided})};
-}
-
 TEST(TiedContinuous, TrianglesHoldFromTheirFront) {
   for (int turn = 0; turn < 6; ++turn)
     for (const bool front : {true, false}) {
-      World world(weightless());
+      World world(jointed());
       world.create(
-          BodyDef{.type = BodyType::Static, .rotation = front ? Quat{} : Quat{0, 0, 1, 0}, .shape = sheet(false)});
+          BodyDef{.type = BodyType::Static, .rotation = front ? Quat{} : Quat{0, 0, 1, 0}, .shape = sheet(4, false)});
       const Chain chain(world, 2,
                         {.position = {-3.2, 0.03, 0.02},
                          .rotation = turned({0, 0, 1}, 0.2 + turn * 0.5236),
@@ -263,7 +257,7 @@ TEST(TiedContinuous, TrianglesHoldFromTheirFront) {
 
 // A thin kinematic wall sweeps two links along.
 TEST(TiedContinuous, AFastKinematicWallTakesThemAlong) {
-  World world(weightless());
+  World world(jointed());
   const BodyId wall = world.create(BodyDef{
       .type = BodyType::Kinematic, .position = {-3.3, 0, 0}, .linearVelocity = {90, 0, 0}, .shape = Box{0.02f, 3, 3}});
   const Chain chain(world, 2, {.position = {0, 0, 0}, .rotation = turned({0, 0, 1}, 0.7)}, 0.15f, 0.05f);
@@ -322,7 +316,7 @@ TEST(TiedContinuous, ManyGiveTheSameBits) {
 
 TEST(TiedContinuous, SubstepsHoldToo) {
   for (int turn = 0; turn < 12; ++turn) {
-    WorldDef def = weightless();
+    WorldDef def = jointed();
     def.substeps = 4;
     World world(def);
     addWall(world);

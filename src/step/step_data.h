@@ -25,6 +25,7 @@ struct Island {
   uint32_t jointBegin = 0, jointCount = 0;  ///< in StepData::islandJoints
   float mass = 0;                           ///< [kg]
   int iterations = 0;                       ///< outer ones
+  float startTime = 1;                      ///< of the step: where its iterations start
   bool floating = true;
 };
 
@@ -348,7 +349,6 @@ struct StepData {
   ContinuousData continuous;  // 75_continuous
   TiedData tied;
   int round = 0;                         ///< how often this substep was solved before
-  std::vector<float> startTime;          ///< by island: of the step, where its iterations start
   std::vector<SweptPair> swept;          ///< by key and patch: contacts that earlier rounds found on the way
   std::vector<SweptContact> sweptLanes;  ///< by batch
 

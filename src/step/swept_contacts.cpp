@@ -170,8 +170,9 @@ bool sweepContact(WorldData& world, StepData& step, const TiedImpact& meeting) {
   return any;
 }
 
-SweptContact sweptRows(const WorldData& world, const StepData& step, const PairData& pair, const SweptPair& swept) {
-  SweptContact rows = swept.rows;
+namespace {
+
+void findOffsets(const WorldData& world, const StepData& step, const PairData& pair, SweptContact& rows) {
   const rows::Twist<float> still{{0, 0, 0}, {0, 0, 0}};
   for (int i = 0; i < rows.count; ++i) {
     rows.offset[i] = step.slop;
@@ -183,18 +184,14 @@ SweptContact sweptRows(const WorldData& world, const StepData& step, const PairD
     const float deep = depthOf(rows, i, still, still) - rows.offset[i];
     if (deep > 0) rows.offset[i] += deep - std::min((1 - step.alpha) * deep, world.def.maxDepenetrationSpeed * step.h);
   }
-  return rows;
 }
-
-namespace {
 
 void listLanes(const WorldData& world, StepData& step, const std::vector<uint32_t>& pairs, Slice lanes, bool isFull) {
   for (uint32_t lane = lanes.begin; lane < lanes.end; ++lane) {
     if (pairs[lane] == kNone) continue;
-    const PairData& pair = world.pairs[pairs[lane]];
-    const SweptPair* swept = sweptOf(step, pair);
+    const SweptPair* swept = sweptOf(step, world.pairs[pairs[lane]]);
     if (!swept) continue;
-    step.sweptLanes.push_back(sweptRows(world, step, pair, *swept));
+    step.sweptLanes.push_back(swept->rows);
     SweptContact& last = step.sweptLanes.back();
     last.lane = lane - lanes.begin, last.isFull = isFull;
     if (step.changes.empty()) continue;
@@ -207,15 +204,19 @@ void listLanes(const WorldData& world, StepData& step, const std::vector<uint32_
 
 }  // namespace
 
+void prepareSwept(const WorldData& world, StepData& step) {
+  for (SweptPair& swept : step.swept)
+    findOffsets(world, step, world.pairs[findPair(world, swept.key) + swept.patch], swept.rows);
+}
+
 void listSwept(const WorldData& world, StepData& step) {
   step.sweptLanes.clear();
+  if (step.swept.empty()) return;
   for (BatchRange& batch : step.batches) {
     batch.sweptBegin = static_cast<uint32_t>(step.sweptLanes.size());
-    if (!step.swept.empty()) {
-      const uint32_t contacts = batch.contactTile * kTile, full = batch.fullTile * kTile;
-      listLanes(world, step, step.contactPair, {contacts, contacts + batch.contactTiles * kTile}, false);
-      listLanes(world, step, step.fullPair, {full, full + batch.fullTiles * kTile}, true);
-    }
+    const uint32_t contacts = batch.contactTile * kTile, full = batch.fullTile * kTile;
+    listLanes(world, step, step.contactPair, {contacts, contacts + batch.contactTiles * kTile}, false);
+    listLanes(world, step, step.fullPair, {full, full + batch.fullTiles * kTile}, true);
     batch.sweptCount = static_cast<uint32_t>(step.sweptLanes.size()) - batch.sweptBegin;
   }
 }

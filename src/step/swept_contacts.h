@@ -10,8 +10,8 @@ bool sweepContact(WorldData& world, StepData& step, const TiedImpact& meeting);
 
 /// Null for a contact of the start of the step.
 const SweptPair* sweptOf(const StepData& step, const PairData& pair);
-/// Its rows, before they are linearised.
-SweptContact sweptRows(const WorldData& world, const StepData& step, const PairData& pair, const SweptPair& swept);
+/// Finds how deep their points may stay in this step, before their rows are filled.
+void prepareSwept(const WorldData& world, StepData& step);
 /// Tells the batches which of their lanes are swept.
 void listSwept(const WorldData& world, StepData& step);
 

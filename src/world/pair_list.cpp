@@ -18,32 +18,22 @@ void PairList::clear() {
   strayed_ = 0;
 }
 
-uint32_t PairList::takeRecord() {
-  if (free_.empty()) {
-    records_.resize(records_.size() + 1);
-    return static_cast<uint32_t>(records_.size() - 1);
-  }
-  const uint32_t record = free_.back();
-  free_.pop_back();
-  return record;
-}
-
-/// Gives fresh_ as many entries, each with a record of its own.
-void PairList::takeRecords(size_t count, Jobs& jobs) {
+/// Gives fresh_ as many entries, each with a record of its own. Returns how many records there have to be then.
+size_t PairList::takeRecords(size_t count) {
   fresh_.resize(count);
   const size_t old = std::min(count, free_.size()), had = records_.size();
   for (size_t i = 0; i < old; ++i) fresh_[i].record = free_[free_.size() - 1 - i];
   free_.resize(free_.size() - old);
   for (size_t i = old; i < count; ++i) fresh_[i].record = static_cast<uint32_t>(had + i - old);
-  records_.resize(had + count - old, jobs);
+  return had + count - old;
 }
 
 void PairList::insert(std::span<const PairData> pairs) {
-  fresh_.clear();
-  for (const PairData& pair : pairs) {
-    const uint32_t record = takeRecord();
-    records_[record] = pair;
-    fresh_.push_back(entryOf(pair, record));
+  records_.resize(takeRecords(pairs.size()));
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const uint32_t record = fresh_[i].record;
+    records_[record] = pairs[i];
+    fresh_[i] = entryOf(pairs[i], record);
   }
   add(fresh_);
 }

@@ -77,7 +77,7 @@ class PairList {
   /// any thread of the jobs.
   template <class Fill>
   void insert(std::span<const uint64_t> keys, Fill&& fill, Jobs& jobs);
-  /// Takes out the pairs of which is(i) holds. It is asked once for each in order, and finds all from i on in place.
+  /// Takes out the pairs of which is(i) holds. It is asked once for each in order, and finds all in place.
   template <class Is>
   void eraseIf(Is&& is);
   /// Takes out the pairs at these places, which ascend.
@@ -96,15 +96,15 @@ class PairList {
   static Entry entryOf(const PairData& pair, uint32_t record) {
     return {pair.key(), record, !pair.isTrigger && !pair.hasSurface, pair.pointCount > 0};
   }
-  uint32_t takeRecord();
-  void takeRecords(size_t count, Jobs& jobs);
+  size_t takeRecords(size_t count);
   void add(std::span<const Entry> entries);
 
   std::vector<Entry> order_;
   PairRecords records_, spare_;
   std::vector<uint32_t> free_;  ///< of the records
   std::vector<Entry> fresh_;
-  size_t strayed_ = 0;  ///< how many records were taken out of order
+  std::vector<uint32_t> gone_;  ///< places
+  size_t strayed_ = 0;          ///< how many records were taken out of order
 };
 
 template <class Fill>
@@ -121,7 +121,7 @@ void PairList::assign(size_t count, Fill&& fill) {
 
 template <class Fill>
 void PairList::insert(std::span<const uint64_t> keys, Fill&& fill, Jobs& jobs) {
-  takeRecords(keys.size(), jobs);
+  records_.resize(takeRecords(keys.size()), jobs);
   jobs.forRange(static_cast<uint32_t>(keys.size()), 64, [&](uint32_t begin, uint32_t end, int) {
     for (uint32_t i = begin; i < end; ++i) {
       const uint32_t record = fresh_[i].record;
@@ -161,14 +161,10 @@ PairList::const_iterator PairList::end() const { return {this, size()}; }
 
 template <class Is>
 void PairList::eraseIf(Is&& is) {
-  size_t size = 0;
-  for (size_t i = 0; i < order_.size(); ++i) {
-    if (is(i))
-      free_.push_back(order_[i].record);
-    else
-      order_[size++] = order_[i];
-  }
-  order_.resize(size);
+  gone_.clear();
+  for (uint32_t i = 0; i < order_.size(); ++i)
+    if (is(i)) gone_.push_back(i);
+  erase(gone_);
 }
 
 }  // namespace avbd

@@ -6,14 +6,6 @@
 #include "world/sleep.h"
 
 namespace avbd {
-namespace {
-
-uint64_t slotPair(uint32_t a, uint32_t b) {
-  const uint64_t low = std::min(a, b), high = std::max(a, b);
-  return low << 32 | high;
-}
-
-}  // namespace
 
 bool filtersMeet(const Filter& a, const Filter& b) {
   if (a.group != 0 && a.group == b.group) return a.group > 0;

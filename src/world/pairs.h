@@ -1,6 +1,8 @@
 // Which shapes may touch, and what is forgotten when something is moved, changed or destroyed between steps.
 #pragma once
 
+#include <algorithm>
+
 #include "world/world_data.h"
 
 namespace avbd {
@@ -23,6 +25,11 @@ struct TouchPlace {
 TouchPlace lastPlace(const WorldData& data, size_t head);
 /// Tells the pairs what their shapes want now (WorldData::wishesChanged).
 void updateWishes(WorldData& data);
+/// One key of two slots in any order: of two shapes, that of their pair.
+inline uint64_t slotPair(uint32_t a, uint32_t b) {
+  const uint64_t low = std::min(a, b), high = std::max(a, b);
+  return low << 32 | high;
+}
 /// Index of the pair's first entry in the list, or WorldData::pairs.size().
 size_t findPair(const WorldData& data, uint64_t key);
 
