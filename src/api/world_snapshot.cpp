@@ -9,9 +9,9 @@ namespace avbd {
 namespace {
 
 /// Returns how many bytes it takes, whether or not it fits.
-size_t saveTo(const WorldData& data, SharedTable& table, std::span<std::byte> out) {
+size_t saveTo(const WorldData& data, SharedTable& table, snapshot::PairSides& sides, std::span<std::byte> out) {
   snapshot::Writer writer(out);
-  saveSnapshot(data, table, writer);
+  saveSnapshot(data, table, sides, writer);
   if (writer.fits()) sealSnapshot(data, out.first(writer.size()));
   return writer.size();
 }
@@ -20,20 +20,20 @@ size_t saveTo(const WorldData& data, SharedTable& table, std::span<std::byte> ou
 
 size_t World::snapshotSize() const {
   const std::lock_guard lock(impl_->treeMutex);
-  return saveTo(impl_->data, impl_->shared, {});
+  return saveTo(impl_->data, impl_->shared, impl_->pairSides, {});
 }
 
 void World::save(std::vector<std::byte>& out) const {
   const std::lock_guard lock(impl_->treeMutex);
   snapshot::Writer writer(out);
-  saveSnapshot(impl_->data, impl_->shared, writer);
+  saveSnapshot(impl_->data, impl_->shared, impl_->pairSides, writer);
   out.resize(writer.size());
   sealSnapshot(impl_->data, out);
 }
 
 size_t World::save(std::span<std::byte> out) const {
   const std::lock_guard lock(impl_->treeMutex);
-  const size_t size = saveTo(impl_->data, impl_->shared, out);
+  const size_t size = saveTo(impl_->data, impl_->shared, impl_->pairSides, out);
   if (size > out.size())
     (Path("World::save") / "out").refuse(toText(out.size()) + " bytes", "must be at least " + toText(size));
   return size;
@@ -42,7 +42,7 @@ size_t World::save(std::span<std::byte> out) const {
 void World::restore(std::span<const std::byte> snapshot) {
   Impl& impl = *impl_;
   if (!impl.restored) impl.restored = std::make_unique<WorldData>();
-  loadSnapshot(snapshot, impl.data, impl.shared, *impl.restored);
+  loadSnapshot(snapshot, impl.data, impl.shared, impl.pairSides, *impl.restored);
   std::swap(impl.data.contactHook, impl.restored->contactHook);
   std::swap(impl.data, *impl.restored);
 }

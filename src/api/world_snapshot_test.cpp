@@ -240,8 +240,8 @@ TEST(Snapshot, WhatIsNoneIsRefusedByName) {
   bytes[0] = std::byte{'B'};
   expectRefused(zoo.world, bytes, "no snapshot");
   bytes = good;
-  bytes[8] = std::byte{3};
-  expectRefused(zoo.world, bytes, "version 3: must be version 2");
+  bytes[8] = std::byte{4};
+  expectRefused(zoo.world, bytes, "version 4: must be version 3");
   zoo.world.restore(good);
 }
 

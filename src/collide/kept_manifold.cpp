@@ -62,34 +62,60 @@ void keep(const Manifold& found, const NearBody& a, const NearBody& b, KeptManif
   }
 }
 
-Carry carry(const KeptManifold& kept, const NearPose& a, const NearPose& b, const KeepLimits& limits,
-            CarriedPoints& out) {
-  const bool ofB = kept.what == What::PointsOnB;
+OtherPlace otherPlace(What what, const NearPose& a, const NearPose& b) {
+  const bool ofB = what == What::PointsOnB;
   const NearPose &base = ofB ? b : a, &other = ofB ? a : b;
   const Mat3 frame = matrix(base.q);
-  out.offset = offsetIn(frame, base, other);
-  out.turn = conjugate(base.q) * other.q;
-  out.ofB = ofB;
-  const Quat turned = out.turn * conjugate(kept.turn);
-  const Mat3 turn = turnLess(turned);
-  const Vec3 shift = out.offset - kept.offset;
-  const Vec3 way = kept.aroundBase ? shift - mul(turn, kept.offset) : shift;
+  return {ofB, base.p, frame, offsetIn(frame, base, other), conjugate(base.q) * other.q};
+}
+
+namespace {
+
+/// How the other body has moved in the base's frame since.
+struct Motion {
+  Quat turned;
+  Mat3 turn;  ///< less the identity
+  Vec3 shift;
+};
+
+AVBD_INLINE Motion motionSince(const KeptManifold& kept, const OtherPlace& now) {
+  const Quat turned = now.turn * conjugate(kept.turn);
+  return {turned, turnLess(turned), now.offset - kept.offset};
+}
+
+AVBD_INLINE void carryBy(const Motion& motion, const KeptManifold& kept, const OtherPlace& now, CarriedPoints& out) {
+  out.offset = now.offset, out.turn = now.turn, out.ofB = now.ofB;
+  const Points p{lane::loadUnaligned<Lanes>(kept.x), lane::loadUnaligned<Lanes>(kept.y),
+                 lane::loadUnaligned<Lanes>(kept.z)};
+  const Points n = lanes(kept.normal), way = times(motion.turn, p - lanes(kept.offset)) + lanes(motion.shift);
+  out.separation = lane::loadUnaligned<Lanes>(kept.height) + dot(n, way);
+  out.onBase = p + way - n * (out.separation * 0.5f);
+  out.position = times(now.frame, out.onBase) + lanes(now.base);
+  const Vec3 normal = mul(now.frame, kept.normal);
+  out.normal = now.ofB ? -normal : normal;
+}
+
+}  // namespace
+
+void carryPoints(const KeptManifold& kept, const OtherPlace& now, CarriedPoints& out) {
+  carryBy(motionSince(kept, now), kept, now, out);
+}
+
+Carry carry(const KeptManifold& kept, const NearPose& a, const NearPose& b, const KeepLimits& limits,
+            CarriedPoints& out) {
+  const OtherPlace now = otherPlace(kept.what, a, b);
+  const Motion motion = motionSince(kept, now);
+  const Vec3 way = kept.aroundBase ? motion.shift - mul(motion.turn, kept.offset) : motion.shift;
+  const Quat turned = motion.turned;
   const float moved = length(way) + 2 * length(Vec3{turned.x, turned.y, turned.z}) * kept.reach;
   const float clear = kept.clear - moved;
   if (kept.what == What::Apart) {
     // Only where nothing would be found anew, whatever the rounding: then nobody can tell whether it was kept.
-    const float rounding = kOfMargin * limits.margin + kOfSizes * (kept.reach + length(out.offset));
+    const float rounding = kOfMargin * limits.margin + kOfSizes * (kept.reach + length(now.offset));
     return clear > limits.margin + rounding ? Carry::Apart : Carry::Anew;
   }
   if (!(moved <= limits.allowed && clear >= limits.margin - limits.slack)) return Carry::Anew;
-  const Points p{lane::loadUnaligned<Lanes>(kept.x), lane::loadUnaligned<Lanes>(kept.y),
-                 lane::loadUnaligned<Lanes>(kept.z)};
-  const Points n = lanes(kept.normal), motion = times(turn, p - lanes(kept.offset)) + lanes(shift);
-  out.separation = lane::loadUnaligned<Lanes>(kept.height) + dot(n, motion);
-  out.onBase = p + motion - n * (out.separation * 0.5f);
-  out.position = times(frame, out.onBase) + lanes(base.p);
-  const Vec3 normal = mul(frame, kept.normal);
-  out.normal = ofB ? -normal : normal;
+  carryBy(motion, kept, now, out);
   return Carry::Points;
 }
 

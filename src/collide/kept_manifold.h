@@ -8,6 +8,7 @@
 
 #include <avbd/rows/math3.h>
 
+#include "collide/pair_math.h"
 #include "geom/manifold.h"
 #include "geom/shape.h"
 #include "lane/wide.h"
@@ -53,6 +54,19 @@ struct CarriedPoints {
   Quat turn;
   bool ofB = false;  ///< the base is B
 };
+
+/// Where the base is, and the other body as it sees it.
+struct OtherPlace {
+  bool ofB;  ///< the base is B
+  Vec3 base;
+  Mat3 frame;
+  Vec3 offset;
+  Quat turn;
+};
+OtherPlace otherPlace(KeptManifold::What what, const NearPose& a, const NearPose& b);
+
+/// However far the two have moved.
+void carryPoints(const KeptManifold& kept, const OtherPlace& now, CarriedPoints& out);
 
 /// The positions in each body's frame, relative to its centre.
 struct PlacesOnBodies {

@@ -17,9 +17,11 @@ namespace {
 constexpr float kSlipping = 0.999f;  ///< of the cone: a friction force beyond it belongs to a point that slips
 
 void publishBodies(WorldData& world, const StepData& step) {
+  world.lastSubstep = step.h;
   step.jobs->forRange(static_cast<uint32_t>(step.order.size()), 256, [&](uint32_t begin, uint32_t end, int) {
     for (size_t i = begin; i < end; ++i) {
       BodyData& body = world.bodies[step.order[i]];
+      body.last = {body.position, body.rotation};
       body.position = step.end[i].position;
       body.rotation = step.end[i].rotation;
       body.acceleration = (step.end[i].linearVelocity - body.linearVelocity) * (1 / step.h);
@@ -29,6 +31,7 @@ void publishBodies(WorldData& world, const StepData& step) {
   });
   for (const uint32_t slot : step.kinematic) {
     BodyData& body = world.bodies[slot];
+    body.last = {body.position, body.rotation};
     body.position = body.position + body.linearVelocity * step.h;
     body.rotation = unit(quatFromVector(body.angularVelocity * step.h) * body.rotation);
   }

@@ -76,6 +76,7 @@ uint32_t addBody(WorldData& data, const BodyDef& def, const BodyPlan& plan) {
     body.center = plan.mass.center;
   }
   body.position = plan.pose.position + rotate(body.rotation, toDouble(body.center));
+  body.last = {body.position, body.rotation};
   for (const ShapeDef& shape : plan.shapes) addShape(data, slot, shape);
   enlist(data, slot);
   return slot;
@@ -122,6 +123,7 @@ void moveBody(WorldData& data, uint32_t slot, const Pose& pose) {
   BodyData& body = data.bodies[slot];
   body.rotation = pose.rotation;
   body.position = pose.position + rotate(pose.rotation, toDouble(body.center));
+  body.last = {body.position, body.rotation};
   forgetPairsOfBody(data, slot);
   for (uint32_t s = body.firstShape; s != kNone; s = data.shapes[s].next) {
     data.tree.move(data.shapes[s].proxy, fatBounds(data, data.shapes[s]));

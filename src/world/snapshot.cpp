@@ -81,6 +81,7 @@ void codeWorld(Codec& codec, World& data) {
   codec.put(data.def.iterations);
   codec.put(data.def.substeps);
   codec.put(data.time);
+  codec.put(data.lastSubstep);
   codec.put(data.treeBehind);
   codec.put(data.wishesChanged);
   codec.record(data.report, StepReport{});
@@ -137,11 +138,11 @@ void checkHook(bool asked, const WorldData& restored, const WorldData& world) {
 /// state.
 void allMembers(WorldData& data) {
   [[maybe_unused]] auto& [def, bodyIds, shapeIds, jointIds, bodies, shapes, joints, d6, links, couplings, jointForces,
-                          breakable, pairs, excludedPairs, tree, unpaired, forgotten, treeBehind, time, report, means,
-                          events, lostTouches, contactHook, hookedShapes, sleep, wishesChanged] = data;
+                          breakable, pairs, excludedPairs, tree, unpaired, forgotten, treeBehind, time, lastSubstep,
+                          report, means, events, lostTouches, contactHook, hookedShapes, sleep, wishesChanged] = data;
 }
 
-void read(Reader& in, const WorldData& world, SharedTable& table, WorldData& out) {
+void read(Reader& in, const WorldData& world, SharedTable& table, PairSides& sides, WorldData& out) {
   allMembers(out);
   KnownThings things{table, {}};
   numberThings(world, table);
@@ -159,8 +160,9 @@ void read(Reader& in, const WorldData& world, SharedTable& table, WorldData& out
   codeJoints(in, out, things);
   codeLists(in, out);
   checkLinks(out);
-  codePairs(in, out);
-  codeSleep(in, out);
+  fillSides(out, sides);
+  codePairs(in, out, sides);
+  codeSleep(in, out, sides);
   checkSleep(out);
   codeEvents(in, out);
   for (const LostTouch& lost : out.lostTouches) require(lost.wasTouching, "a touch that never was");
@@ -192,7 +194,7 @@ void numberThings(const WorldData& data, SharedTable& table) {
 
 }  // namespace snapshot
 
-void saveSnapshot(const WorldData& data, SharedTable& table, snapshot::Writer& out) {
+void saveSnapshot(const WorldData& data, SharedTable& table, snapshot::PairSides& sides, snapshot::Writer& out) {
   using namespace snapshot;
   constexpr std::array<std::byte, kHead> kEmpty{};
   out.raw(kEmpty.data(), kHead);
@@ -205,8 +207,9 @@ void saveSnapshot(const WorldData& data, SharedTable& table, snapshot::Writer& o
   codeShapes(out, data, table);
   codeJoints(out, data, table);
   codeLists(out, data);
-  codePairs(out, data);
-  codeSleep(out, data);
+  fillSides(data, sides);
+  codePairs(out, data, sides);
+  codeSleep(out, data, sides);
   codeEvents(out, data);
 }
 
@@ -220,7 +223,8 @@ void sealSnapshot(const WorldData& data, std::span<std::byte> whole) {
   set(kHashAt, hashOf(whole));
 }
 
-void loadSnapshot(std::span<const std::byte> whole, const WorldData& world, SharedTable& table, WorldData& out) {
+void loadSnapshot(std::span<const std::byte> whole, const WorldData& world, SharedTable& table,
+                  snapshot::PairSides& sides, WorldData& out) {
   using namespace snapshot;
   const auto get = [&](size_t at, auto value) {
     std::memcpy(&value, whole.data() + at, sizeof(value));
@@ -239,7 +243,7 @@ void loadSnapshot(std::span<const std::byte> whole, const WorldData& world, Shar
     refuse("of another world", "must be of this one, or of one that was made with an equal WorldDef");
   try {
     Reader in(whole.subspan(kHead));
-    read(in, world, table, out);
+    read(in, world, table, sides, out);
   } catch (const Unsound& found) {
     refuse("unsound", std::string("must hold a world: ") + found.what);
   }

@@ -6,19 +6,22 @@
 
 #include "world/shared_table.h"
 #include "world/snapshot_codec.h"
+#include "world/snapshot_sides.h"
 #include "world/world_data.h"
 
 namespace avbd {
 
-inline constexpr uint32_t kSnapshotVersion = 2;
+inline constexpr uint32_t kSnapshotVersion = 3;
 
 /// Everything that the next steps and calls depend on, but for what the user holds: hook, shared geometry, families.
-void saveSnapshot(const WorldData& data, SharedTable& table, snapshot::Writer& out);
+/// `sides` is memory that it uses.
+void saveSnapshot(const WorldData& data, SharedTable& table, snapshot::PairSides& sides, snapshot::Writer& out);
 /// Fills the head of a snapshot, which leads `whole`.
 void sealSnapshot(const WorldData& data, std::span<std::byte> whole);
 
 /// Reads a snapshot into `out`, whose memory is used again; `world` is the one that will take it. Throws Error, with
 /// `out` then in no use.
-void loadSnapshot(std::span<const std::byte> whole, const WorldData& world, SharedTable& table, WorldData& out);
+void loadSnapshot(std::span<const std::byte> whole, const WorldData& world, SharedTable& table,
+                  snapshot::PairSides& sides, WorldData& out);
 
 }  // namespace avbd

@@ -25,6 +25,7 @@ void checkBody(const BodyData& body) {
   require(body.type <= BodyType::Dynamic, "a body of no type");
   require(body.locks < 64 && body.iterations >= 0 && body.iterations <= kMaxIterations, "a body's setting");
   require(finite(body.position) && isUnit(body.rotation), "a body's pose");
+  require(finite(body.last.position) && isUnit(body.last.rotation), "where a body was");
   require(finite(body.linearVelocity) && finite(body.angularVelocity) && finite(body.acceleration), "a body's motion");
   require(finite(body.force) && finite(body.torque) && finite(body.center), "a body's forces");
   require(finite(body.radius) && finite(body.minExtent) && body.radius >= 0 && body.minExtent >= 0, "a body's size");
@@ -132,13 +133,12 @@ void checkSlots(const std::vector<uint32_t>& slots, size_t count) {
   require(std::adjacent_find(slots.begin(), slots.end(), std::greater_equal<>()) == slots.end(), "a list's order");
 }
 
-void checkLiving(const WorldData& data, const PairData& pair) {
-  const ShapeData &a = data.shapes[pair.shapeA], &b = data.shapes[pair.shapeB];
+void checkLiving(const PairSide& a, const PairSide& b, const PairData& pair) {
   require(a.body == pair.bodyA && b.body == pair.bodyB && a.body != b.body, "a pair's bodies");
-  require(isConvex(a.geom.type) || isConvex(b.geom.type), "a pair of two surfaces");
-  require(pair.hasSurface == (isSurface(a.geom.type) || isSurface(b.geom.type)), "a pair's kind");
+  require(a.isConvex || b.isConvex, "a pair of two surfaces");
+  require(pair.hasSurface == (a.isSurface || b.isSurface), "a pair's kind");
   require(pair.isTrigger == (a.isTrigger || b.isTrigger) && pair.triggerIsA == a.isTrigger, "a pair's trigger");
-  require(pair.isTrigger || isDynamic(data, pair.bodyA) || isDynamic(data, pair.bodyB), "a pair that nothing moves");
+  require(pair.isTrigger || a.isDynamic || b.isDynamic, "a pair that nothing moves");
 }
 
 bool lives(const WorldData& data, const PairData& pair) {
@@ -161,12 +161,12 @@ void checkLinks(const WorldData& data) {
   checkSlots(data.forgotten, data.shapes.size());
 }
 
-void checkPair(const WorldData& data, const PairData& pair, const PairData* before) {
+void checkPair(const WorldData& data, const PairSides& sides, const PairData& pair, const PairData* before) {
   const bool goesOn = before && before->key() == pair.key();
   require(pair.shapeA < pair.shapeB && (!before || before->key() <= pair.key()), "the order of pairs");
   require(pair.patch == (goesOn ? before->patch + 1 : 0) && (!goesOn || pair.hasSurface), "a pair's run");
   if (lives(data, pair))
-    checkLiving(data, pair);
+    checkLiving(sides[pair.shapeA], sides[pair.shapeB], pair);
   else
     require(isForgotten(data, pair.shapeA) || isForgotten(data, pair.shapeB), "a pair of shapes that are gone");
 }

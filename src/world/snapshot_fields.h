@@ -29,9 +29,10 @@ auto snapshotParts(T& x) {
   return std::tie(category, mask, group, anyMask);
 }
 
+/// By hand (snapshot_bodies.cpp): last.
 template <MaybeConst<BodyData> T>
 auto snapshotParts(T& x) {
-  auto& [position, rotation, linearVelocity, angularVelocity, acceleration, force, torque, center, mass, inertia,
+  auto& [position, rotation, linearVelocity, angularVelocity, last, acceleration, force, torque, center, mass, inertia,
          invInertia, linearDamping, angularDamping, gravityScale, iterations, maxLinearSpeed, maxAngularSpeed, radius,
          minExtent, massScale, firstShape, firstJoint, type, locks, massGiven, continuous, canSleep, asleep, toldAsleep,
          stillTime, sleepIsland, userData] = x;

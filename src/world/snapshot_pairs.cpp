@@ -1,13 +1,13 @@
 // Snapshots: pairs, most of what a snapshot of a pile holds.
 //
 // A pair is coded by hand, as most of it follows from something else: its bodies from its shapes, two axes of its basis
-// from the third, and where a point is from where it stuck. Only what does not follow is written. What follows is
-// computed with +, - and * alone, the same on every processor.
+// from the third, one manifold from the other (snapshot_kept.h), and where a point stuck from where it is. Only what
+// does not follow is written. What follows is computed as the step computes it, the same on every processor.
 #include <algorithm>
 
 #include "avbd/rows/math.h"
-#include "world/snapshot_kept.h"
 #include "world/snapshot_parts.h"
+#include "world/snapshot_points.h"
 
 namespace avbd::snapshot {
 namespace {
@@ -53,6 +53,23 @@ Basis basisOf(Vec3 n) {
   return {{t1.x, t1.y, t1.z}, {t2.x, t2.y, t2.z}};
 }
 
+/// A pair of which nothing is to tell but that it is there: about half of them.
+struct QuietLook {
+  uint16_t flags = 0, material = 0;
+  Coefficients coefficients{};
+  bool operator==(const QuietLook& other) const {
+    return flags == other.flags && material == other.material && same(coefficients, other.coefficients);
+  }
+};
+
+QuietLook lookOf(const PairData& pair) { return {flagsOf(pair), pair.material, coefficientsOf(pair)}; }
+
+bool isQuiet(const PairData& p) {
+  return p.pointCount == 0 && p.gonePoints == 0 && p.mean == kNone && p.slides == 0 && p.patch == 0 &&
+         p.element == kNoElement && !keepsPoints(p.kept) && !p.hasContact() && same(p.turn, Vec3{}) &&
+         same(p.torque, Vec3{});
+}
+
 /// What is known of a pair before it is read.
 struct Expected {
   uint32_t shapeA = kNone;
@@ -63,92 +80,28 @@ struct Expected {
   Coefficients coefficients{};
   uint32_t mean = 0;  ///< the next
   uint32_t feature = 0;
-  BodiesApart bodies;
+  QuietLook quiet;
 
   /// The pair's shapes are known.
-  void meet(const WorldData& data, const PairData& pair, bool sameA) {
-    if (!sameA) meetA(data, pair.shapeA);
-    const uint32_t bodyB = data.shapes[pair.shapeB].body;
-    ends[1] = bodyB;
-    ends[3] = data.shapeIds.id(pair.shapeB).generation;
-    ends[5] = bodyB == kNone ? 0 : data.bodyIds.id(bodyB).generation;
-  }
-  /// It has points, or keeps a manifold.
-  void touch(const WorldData& data) {
-    if (ends[0] != kNone && ends[1] != kNone) bodies.place(data.bodies[ends[0]], data.bodies[ends[1]]);
+  void meet(const PairSides& sides, const PairData& pair, bool sameA) {
+    if (!sameA) meetA(sides[pair.shapeA]);
+    const PairSide& side = sides[pair.shapeB];
+    ends[1] = side.body;
+    ends[3] = side.shapeGeneration;
+    ends[5] = side.bodyGeneration;
   }
 
  private:
-  void meetA(const WorldData& data, uint32_t shape) {
-    const uint32_t body = data.shapes[shape].body;
-    ends[0] = body;
-    ends[2] = data.shapeIds.id(shape).generation;
-    ends[4] = body == kNone ? 0 : data.bodyIds.id(body).generation;
-    if (body != kNone) origin = data.bodies[body].position;
-    bodies.placedA = false;
+  void meetA(const PairSide& side) {
+    ends[0] = side.body;
+    ends[2] = side.shapeGeneration;
+    ends[4] = side.bodyGeneration;
+    origin = side.last.position;
   }
 };
 
 /// More than any pair takes.
 constexpr size_t kPairBytes = 768;
-
-// Bits of a point's head.
-constexpr uint32_t kOtherName = 1u << 2, kPushes = 1u << 3, kRebounds = 1u << 4, kOtherSticks = 1u << 5;
-constexpr int kPlaceAt = 6, kAnchorAt = 8;
-constexpr uint32_t kStopped = 1u << 10;
-constexpr uint32_t kPointBits = (1u << 11) - 1;
-
-void writePoint(std::byte*& to, const PairData& pair, int i, Expected& expected) {
-  const ManifoldPoint& place = pair.manifold.points[i];
-  const PointMemory& point = pair.points[i];
-  auto& [feature, lambda, anchorA, anchorB, rebound, impact, sticks] = point;
-  std::byte* const head = to;
-  to += sizeof(uint16_t);
-  const uint32_t name = place.feature ^ expected.feature;
-  uint32_t bits = name == 0 ? 0 : name < 1u << 8 ? 1 : name < 1u << 16 ? 2 : 3;
-  std::memcpy(to, &name, sizeof(name));
-  to += (0x4210u >> 4 * bits) & 15u;
-  expected.feature = place.feature;
-  if (feature != place.feature) bits |= kOtherName, put(to, feature);
-  if (lambda != Vec3{} || !same(lambda, Vec3{})) bits |= kPushes, put(to, lambda);
-  if (!same(rebound, 0.0f)) bits |= kRebounds, put(to, rebound);
-  if (!same(impact, 0.0f)) bits |= kStopped, put(to, impact);
-  if (sticks != 1) bits |= kOtherSticks, put(to, sticks);
-  put(to, place.separation);
-  put(to, anchorA);
-  const Vec3 arm = expected.bodies.turnA * anchorA;
-  bits |= putNear(to, place.position, arm) << kPlaceAt;
-  bits |= putNear(to, anchorB, transposed(expected.bodies.turnB, arm - expected.bodies.apart)) << kAnchorAt;
-  const auto stored = static_cast<uint16_t>(bits);
-  std::memcpy(head, &stored, sizeof(stored));
-}
-
-void readPoint(const std::byte*& from, PairData& pair, int i, Expected& expected) {
-  ManifoldPoint& place = pair.manifold.points[i];
-  PointMemory& point = pair.points[i];
-  uint16_t bits = 0;
-  put(from, bits);
-  require(bits <= kPointBits, "a point of unknown flags");
-  uint32_t name = 0;
-  std::memcpy(&name, from, sizeof(name));
-  const uint32_t width = (0x4210u >> 4 * (bits & 3u)) & 15u;
-  from += width;
-  name = width == 0 ? 0 : name & 0xffffffffu >> (8 * (4 - width));
-  expected.feature ^= name;
-  point = {};
-  place.feature = point.feature = expected.feature;
-  point.sticks = 1;
-  if (bits & kOtherName) put(from, point.feature);
-  if (bits & kPushes) put(from, point.lambda);
-  if (bits & kRebounds) put(from, point.rebound);
-  if (bits & kStopped) put(from, point.impact);
-  if (bits & kOtherSticks) put(from, point.sticks);
-  put(from, place.separation);
-  put(from, point.anchorA);
-  const Vec3 arm = expected.bodies.turnA * point.anchorA;
-  putNear(from, place.position, arm, bits >> kPlaceAt & 3u);
-  putNear(from, point.anchorB, transposed(expected.bodies.turnB, arm - expected.bodies.apart), bits >> kAnchorAt & 3u);
-}
 
 // Bits of a pair's head.
 enum : uint32_t {
@@ -170,7 +123,8 @@ enum : uint32_t {
   kOtherMean = 1u << 15,
   kLastPoint = 1u << 16,
 };
-constexpr int kPointsAt = 17, kGoneAt = 20, kManifoldAt = 23, kPairBits = 26;
+constexpr int kPointsAt = 17, kGoneAt = 20, kManifoldAt = 23, kFollowsAt = 26, kPairBits = 29;
+constexpr uint32_t kQuiet = 1u << 28;
 
 int pointsOf(const PairData& pair) {
   return std::max({pair.manifold.count, pair.pointCount, static_cast<int>(pair.gonePoints)});
@@ -204,25 +158,108 @@ void putOther(const std::byte*& from, uint32_t bits, uint32_t bit, T& now, const
     now = expected;
 }
 
-/// Of a pair that has a contact.
-void writeBasis(std::byte*& to, uint32_t& bits, const PairData& pair, Expected& expected) {
+/// Of a pair that has a contact. `normal`: what the manifold's is expected to be.
+void writeBasis(std::byte*& to, uint32_t& bits, const PairData& pair, Vec3 normal, Expected& expected) {
   putNew(to, bits, kOrigin, pair.origin, expected.origin);
-  putOther(to, bits, kNormal, pair.normal, Vec3{});
+  putOther(to, bits, kNormal, pair.normal, normal);
   putOther(to, bits, kManifoldNormal, pair.manifold.normal, pair.normal);
   const Basis basis = basisOf(pair.normal);
   if (!same(pair.t1, basis.t1) || !same(pair.t2, basis.t2)) bits |= kBasis, put(to, pair.t1), put(to, pair.t2);
 }
 
-void readBasis(const std::byte*& from, uint32_t bits, PairData& pair, Expected& expected) {
+void readBasis(const std::byte*& from, uint32_t bits, PairData& pair, Vec3 normal, Expected& expected) {
   putNew(from, bits, kOrigin, pair.origin, expected.origin);
-  putOther(from, bits, kNormal, pair.normal, Vec3{});
+  putOther(from, bits, kNormal, pair.normal, normal);
   putOther(from, bits, kManifoldNormal, pair.manifold.normal, pair.normal);
   const Basis basis = basisOf(pair.normal);
   pair.t1 = basis.t1, pair.t2 = basis.t2;
   if (bits & kBasis) put(from, pair.t1), put(from, pair.t2);
 }
 
-void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expected& expected) {
+/// A pair's manifold and the one that it keeps, and what follows of them.
+struct Manifolds {
+  LastPlaces last;
+  CarriedPoints carried;
+  Follows follows = Follows::Nothing;
+
+  Vec3 normal() const { return follows == Follows::Manifold ? carried.normal : Vec3{}; }
+  PlacesOn places(const PairData& pair, int count) const {
+    return follows == Follows::Manifold ? placesOf(carried) : placesOf(pair.manifold, count, last);
+  }
+};
+
+/// What is written in front of a pair's basis.
+void writeBefore(std::byte*& to, uint32_t& bits, const PairData& pair, Manifolds& all) {
+  const int count = pointsOf(pair);
+  if (count > 0 && count == pair.manifold.count) all.follows = whatFollows(pair, all.last, all.carried);
+  bits |= static_cast<uint32_t>(all.follows) << kFollowsAt;
+  if (all.follows == Follows::Manifold) writeKept(to, pair.kept, all.last, all.carried.offset, all.carried.turn);
+}
+
+void readBefore(const std::byte*& from, uint32_t bits, PairData& pair, Manifolds& all) {
+  const uint32_t follows = bits >> kFollowsAt;
+  require(follows <= static_cast<uint32_t>(Follows::Kept), "a pair of which something else follows");
+  all.follows = static_cast<Follows>(follows);
+  if (all.follows != Follows::Manifold) return;
+  OtherPlace place;
+  readKept(from, pair.kept, all.last, place);
+  require(keepsPoints(pair.kept), "a manifold carried from none");
+  carryPoints(pair.kept, place, all.carried);
+  for (int i = 0; i < pair.manifold.count; ++i) pair.manifold.points[i] = pointOf(all.carried, i, 0);
+}
+
+void writeKeptAlone(std::byte*& to, const KeptManifold& kept, const LastPlaces& last) {
+  if (!keepsPoints(kept) || !last.both) return put(to, uint8_t{0});
+  const OtherPlace place = otherPlace(kept.what, last.a.pose, last.b.pose);
+  writeKept(to, kept, last, place.offset, place.turn);
+}
+
+/// The points, and what was not written before.
+void writeAfter(std::byte*& to, const PairData& pair, const Manifolds& all, Expected& expected) {
+  const int count = pointsOf(pair);
+  if (all.follows != Follows::Manifold)
+    for (int i = 0; i < count; ++i)
+      put(to, pair.manifold.points[i].separation), put(to, pair.manifold.points[i].position);
+  if (count > 0) {
+    const PlacesOn places = all.places(pair, count);
+    for (int i = 0; i < count; ++i) writePoint(to, pair, i, places, expected.feature);
+  }
+  if (all.follows == Follows::Nothing) writeKeptAlone(to, pair.kept, all.last);
+  if (all.follows == Follows::Kept) put(to, static_cast<uint8_t>(pair.kept.what)), put(to, pair.kept.clear);
+}
+
+void readAfter(const std::byte*& from, PairData& pair, const Manifolds& all, Expected& expected) {
+  const int count = pointsOf(pair);
+  if (all.follows != Follows::Manifold)
+    for (int i = 0; i < count; ++i)
+      put(from, pair.manifold.points[i].separation), put(from, pair.manifold.points[i].position);
+  if (count > 0) {
+    const PlacesOn places = all.places(pair, count);
+    for (int i = 0; i < count; ++i) readPoint(from, pair, i, places, expected.feature);
+  }
+  OtherPlace place;
+  if (all.follows == Follows::Nothing) readKept(from, pair.kept, all.last, place);
+  if (all.follows != Follows::Kept) return;
+  KeptManifold kept;
+  uint8_t what = 0;
+  put(from, what), put(from, kept.clear);
+  kept.what = readWhat(what);
+  pair.kept = keptOf(pair.manifold, kept.clear, carrierOf(kept), all.last);
+  require(pair.kept.what == kept.what, "a manifold kept from none");
+}
+
+void writeManifolds(std::byte*& to, uint32_t& bits, const PairSides& sides, const PairData& pair, Expected& expected) {
+  if (pointsOf(pair) == 0 && !keepsPoints(pair.kept)) {  // most pairs
+    if (pair.hasContact()) writeBasis(to, bits, pair, {}, expected);
+    return put(to, uint8_t{0});
+  }
+  Manifolds all{LastPlaces(sides[pair.shapeA], sides[pair.shapeB]), {}};
+  writeBefore(to, bits, pair, all);
+  if (pair.hasContact()) writeBasis(to, bits, pair, all.normal(), expected);
+  writeAfter(to, pair, all, expected);
+}
+
+void writePair(std::byte*& to, const PairSides& sides, const PairData& pair, Expected& expected) {
   // All members by name, so that a new one does not compile before it is written here and read below.
   auto& [shapeA, shapeB, bodyA, bodyB, generation, patch, material, element, hasSurface, isTrigger, triggerIsA, reports,
          wantsHits, hasHook, isFull, touching, wasTouching, touchBegins, slides, landedSliding, pointCount, gonePoints,
@@ -235,14 +272,20 @@ void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expe
                   static_cast<uint32_t>(manifold.count) << kManifoldAt;
   putNew(to, bits, kShapeA, shapeA, expected.shapeA);
   put(to, shapeB);
-  expected.meet(data, pair, !(bits & kShapeA));
+  expected.meet(sides, pair, !(bits & kShapeA));
   const std::array<uint32_t, 6> ends = {bodyA, bodyB, generation[0], generation[1], generation[2], generation[3]};
+  const bool quiet = isQuiet(pair) && ends == expected.ends;
+  if (quiet && lookOf(pair) == expected.quiet) {
+    bits |= kQuiet;
+    std::memcpy(head, &bits, sizeof(bits));
+    return;
+  }
+  if (quiet) expected.quiet = lookOf(pair);
   putOther(to, bits, kEnds, ends, expected.ends);
   putNew(to, bits, kFlagBits, flagsOf(pair), expected.flags);
   putOther(to, bits, kPatch, patch, uint16_t{0});
   putNew(to, bits, kMaterial, material, expected.material);
   putOther(to, bits, kElement, element, kNoElement);
-  if (pair.hasContact()) writeBasis(to, bits, pair, expected);
   putNew(to, bits, kCoefficients, coefficientsOf(pair), expected.coefficients);
   putOther(to, bits, kTurn, turn, Vec3{});
   putOther(to, bits, kTorque, torque, Vec3{});
@@ -250,22 +293,41 @@ void writePair(std::byte*& to, const WorldData& data, const PairData& pair, Expe
   if (mean != kNone) bits |= kMean;
   if (mean != kNone && mean != expected.mean) bits |= kOtherMean, put(to, mean);
   if (mean != kNone) expected.mean = mean + 1;
-  const int count = pointsOf(pair);
-  if (count == 0 && pair.hasContact()) putOther(to, bits, kLastPoint, manifold.points[0].position, Vec3{});
-  if (count > 0 || keepsPoints(kept)) expected.touch(data);
-  for (int i = 0; i < count; ++i) writePoint(to, pair, i, expected);
-  writeKept(to, pair, data, expected.bodies);
+  if (pointsOf(pair) == 0 && pair.hasContact()) putOther(to, bits, kLastPoint, manifold.points[0].position, Vec3{});
+  writeManifolds(to, bits, sides, pair, expected);
   std::memcpy(head, &bits, sizeof(bits));
+}
+
+void readManifolds(const std::byte*& from, uint32_t bits, const PairSides& sides, PairData& pair, Expected& expected) {
+  Manifolds all{LastPlaces(sides[pair.shapeA], sides[pair.shapeB]), {}};
+  readBefore(from, bits, pair, all);
+  if (pair.hasContact()) readBasis(from, bits, pair, all.normal(), expected);
+  readAfter(from, pair, all, expected);
+}
+
+void setEnds(PairData& pair, const std::array<uint32_t, 6>& ends) {
+  pair.bodyA = ends[0], pair.bodyB = ends[1];
+  std::copy(ends.begin() + 2, ends.end(), pair.generation);
 }
 
 void readEnds(const std::byte*& from, uint32_t bits, PairData& pair, const Expected& expected) {
   std::array<uint32_t, 6> ends;
   putOther(from, bits, kEnds, ends, expected.ends);
-  pair.bodyA = ends[0], pair.bodyB = ends[1];
-  std::copy(ends.begin() + 2, ends.end(), pair.generation);
+  setEnds(pair, ends);
 }
 
-void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Expected& expected) {
+void setQuiet(PairData& pair, const Expected& expected) {
+  setEnds(pair, expected.ends);
+  setFlags(pair, expected.quiet.flags);
+  pair.material = expected.quiet.material;
+  setCoefficients(pair, expected.quiet.coefficients);
+  pair.patch = 0, pair.element = kNoElement, pair.slides = 0, pair.mean = kNone;
+  pair.kept.what = KeptManifold::What::Nothing;
+  pair.origin = {}, pair.normal = pair.manifold.normal = pair.t1 = pair.t2 = pair.manifold.points[0].position = Vec3{};
+  pair.turn = pair.torque = Vec3{};
+}
+
+void readPair(const std::byte*& from, const PairSides& sides, PairData& pair, Expected& expected) {
   uint32_t bits = 0;
   put(from, bits);
   require(bits >> kPairBits == 0, "a pair of unknown flags");
@@ -277,8 +339,9 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
   require(count <= kMaxManifoldPoints, "a pair of too many points");
   putNew(from, bits, kShapeA, pair.shapeA, expected.shapeA);
   put(from, pair.shapeB);
-  require(pair.shapeA < data.shapes.size() && pair.shapeB < data.shapes.size(), "a pair of shapes that there are not");
-  expected.meet(data, pair, !(bits & kShapeA));
+  require(pair.shapeA < sides.size() && pair.shapeB < sides.size(), "a pair of shapes that there are not");
+  expected.meet(sides, pair, !(bits & kShapeA));
+  if (bits & kQuiet) return setQuiet(pair, expected);
   readEnds(from, bits, pair, expected);
   uint16_t flags = 0;
   putNew(from, bits, kFlagBits, flags, expected.flags);
@@ -288,7 +351,6 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
   putNew(from, bits, kMaterial, pair.material, expected.material);
   putOther(from, bits, kElement, pair.element, kNoElement);
   pair.origin = {}, pair.normal = pair.manifold.normal = pair.t1 = pair.t2 = pair.manifold.points[0].position = Vec3{};
-  if (pair.hasContact()) readBasis(from, bits, pair, expected);
   Coefficients coefficients;
   putNew(from, bits, kCoefficients, coefficients, expected.coefficients);
   setCoefficients(pair, coefficients);
@@ -299,19 +361,24 @@ void readPair(const std::byte*& from, const WorldData& data, PairData& pair, Exp
   if (bits & kOtherMean) put(from, pair.mean);
   if (bits & kMean) expected.mean = pair.mean + 1;
   if (count == 0 && pair.hasContact()) putOther(from, bits, kLastPoint, pair.manifold.points[0].position, Vec3{});
-  if (count > 0) expected.touch(data);
-  for (int i = 0; i < count; ++i) readPoint(from, pair, i, expected);
-  if (count == 0 && keepsManifold(from)) expected.touch(data);
-  readKept(from, pair, data, expected.bodies);
+  readManifolds(from, bits, sides, pair, expected);
+  const std::array<uint32_t, 6> ends = {pair.bodyA,         pair.bodyB,         pair.generation[0],
+                                        pair.generation[1], pair.generation[2], pair.generation[3]};
+  if (isQuiet(pair) && ends == expected.ends) expected.quiet = lookOf(pair);
 }
 
+void ask(const PairList& pairs, size_t i) { pairs.prefetch(i + PairList::kAhead); }
+void ask(const std::vector<PairData>&, size_t) {}
+
 template <class List>
-void writePairs(Writer& out, const WorldData& data, const List& pairs) {
+void writePairs(Writer& out, const PairSides& sides, const List& pairs) {
   out.number(pairs.size());
   Expected expected;
-  for (const PairData& pair : pairs) {
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const PairData& pair = pairs[i];
+    ask(pairs, i);
     std::byte* to = out.room(kPairBytes);
-    writePair(to, data, pair, expected);
+    writePair(to, sides, pair, expected);
     out.advance(to);
   }
 }
@@ -322,6 +389,7 @@ size_t countPairs(Reader& in) { return in.count(2 * sizeof(uint32_t)); }
 struct PairReader {
   Reader& in;
   const WorldData& data;
+  const PairSides& sides;
   Expected expected{};
   const PairData* before = nullptr;
   size_t means = 0;  ///< how many they name
@@ -329,9 +397,9 @@ struct PairReader {
   void operator()(PairData& pair) {
     const std::byte* const begin = in.piece(kPairBytes);
     const std::byte* from = begin;
-    readPair(from, data, pair, expected);
+    readPair(from, sides, pair, expected);
     in.advance(static_cast<size_t>(from - begin));
-    checkPair(data, pair, before);
+    checkPair(data, sides, pair, before);
     if (pair.mean != kNone) means = std::max(means, pair.mean + size_t{1});
     before = &pair;
   }
@@ -339,24 +407,24 @@ struct PairReader {
 
 }  // namespace
 
-void codePairList(Writer& out, const WorldData& data, const std::vector<PairData>& pairs) {
-  writePairs(out, data, pairs);
+void codePairList(Writer& out, const PairSides& sides, const std::vector<PairData>& pairs) {
+  writePairs(out, sides, pairs);
 }
 
-size_t codePairList(Reader& in, const WorldData& data, std::vector<PairData>& pairs) {
+size_t codePairList(Reader& in, const WorldData& data, const PairSides& sides, std::vector<PairData>& pairs) {
   pairs.resize(countPairs(in));
-  PairReader read{in, data};
+  PairReader read{in, data, sides};
   for (PairData& pair : pairs) read(pair);
   return read.means;
 }
 
-void codePairs(Writer& out, const WorldData& data) {
-  writePairs(out, data, data.pairs);
+void codePairs(Writer& out, const WorldData& data, const PairSides& sides) {
+  writePairs(out, sides, data.pairs);
   list(out, data.means);
 }
 
-void codePairs(Reader& in, WorldData& data) {
-  PairReader read{in, data};
+void codePairs(Reader& in, WorldData& data, const PairSides& sides) {
+  PairReader read{in, data, sides};
   data.pairs.assign(countPairs(in), read);
   list(in, data.means);
   require(read.means <= data.means.size(), "a pair's means");

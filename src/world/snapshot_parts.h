@@ -4,6 +4,7 @@
 #include "world/shared_table.h"
 #include "world/snapshot_codec.h"
 #include "world/snapshot_fields.h"
+#include "world/snapshot_sides.h"
 #include "world/world_data.h"
 
 namespace avbd::snapshot {
@@ -26,19 +27,19 @@ void codeShapes(Writer& out, const WorldData& data, SharedTable& table);
 void codeShapes(Reader& in, WorldData& data, const KnownThings& things);
 void codeJoints(Writer& out, const WorldData& data, SharedTable& table);
 void codeJoints(Reader& in, WorldData& data, const KnownThings& things);
-void codePairs(Writer& out, const WorldData& data);
-void codePairs(Reader& in, WorldData& data);
-void codePairList(Writer& out, const WorldData& data, const std::vector<PairData>& pairs);
+void codePairs(Writer& out, const WorldData& data, const PairSides& sides);
+void codePairs(Reader& in, WorldData& data, const PairSides& sides);
+void codePairList(Writer& out, const PairSides& sides, const std::vector<PairData>& pairs);
 /// Checks each; returns how many means they name.
-size_t codePairList(Reader& in, const WorldData& data, std::vector<PairData>& pairs);
+size_t codePairList(Reader& in, const WorldData& data, const PairSides& sides, std::vector<PairData>& pairs);
 /// What is awake, and the islands that sleep with their pairs and joints.
-void codeSleep(Writer& out, const WorldData& data);
-void codeSleep(Reader& in, WorldData& data);
+void codeSleep(Writer& out, const WorldData& data, const PairSides& sides);
+void codeSleep(Reader& in, WorldData& data, const PairSides& sides);
 
 /// That a snapshot's content fits together: no index, list or flag leads a later call astray. Throws Unsound.
 void checkLinks(const WorldData& data);
 /// The same of a pair and the one before it, which may be null.
-void checkPair(const WorldData& data, const PairData& pair, const PairData* before);
+void checkPair(const WorldData& data, const PairSides& sides, const PairData& pair, const PairData* before);
 void checkSleep(const WorldData& data);
 
 }  // namespace avbd::snapshot

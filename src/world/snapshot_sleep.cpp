@@ -47,24 +47,24 @@ void checkIsland(const WorldData& data, uint32_t index, bool free, bool woken, s
 
 }  // namespace
 
-void codeSleep(Writer& out, const WorldData& data) {
+void codeSleep(Writer& out, const WorldData& data, const PairSides& sides) {
   codeLists(out, data.sleep);
   out.number(data.sleep.islands.size());
   for (const SleepingIsland& island : data.sleep.islands) {
     const auto& [bodies, joints, supports, pairs] = island;
     list(out, bodies), list(out, joints), list(out, supports);
-    codePairList(out, data, pairs);
+    codePairList(out, sides, pairs);
   }
 }
 
-void codeSleep(Reader& in, WorldData& data) {
+void codeSleep(Reader& in, WorldData& data, const PairSides& sides) {
   codeLists(in, data.sleep);
   data.sleep.islands.resize(in.count(4));
   for (SleepingIsland& island : data.sleep.islands) {
     auto& [bodies, joints, supports, pairs] = island;
     list(in, bodies), list(in, joints), list(in, supports);
     checkBelow(bodies, data.bodies.size()), checkBelow(supports, data.bodies.size());
-    require(codePairList(in, data, pairs) == 0, "means of a sleeping pair");
+    require(codePairList(in, data, sides, pairs) == 0, "means of a sleeping pair");
   }
 }
 

@@ -18,6 +18,7 @@ struct BodyData {
   Vec3d position;  ///< of the centre of mass
   Quat rotation;   ///< body to world
   Vec3 linearVelocity, angularVelocity;
+  Pose last;                    ///< of the centre of mass, where contacts were last looked for
   Vec3 acceleration;            ///< of the centre of mass in the last step
   Vec3 force, torque;           ///< given by the user for the next step
   Vec3 center;                  ///< centre of mass in the body's frame
@@ -177,6 +178,7 @@ struct WorldData {
   std::vector<uint32_t> forgotten;
   bool treeBehind = false;  ///< bodies have moved since the tree was last fitted: a query fits it first
   double time = 0;
+  float lastSubstep = 0;  ///< [s]: about how long ago BodyData::last was
   StepReport report;
   std::vector<PointMeans> means;       ///< of the last step, by PairData::mean
   Events events;                       ///< of the last step
