@@ -87,6 +87,8 @@ void Session::act() {
     case 22:
     case 23:
       return articulate();
+    case 24:
+      return makeSoft();
     default:
       return step();
   }

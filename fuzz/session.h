@@ -54,6 +54,7 @@ class Session {
   // session_make.cpp
   void make();
   void makeJoint();
+  void makeSoft();
   void makeMovingJoint(uint32_t kind, BodyId a, BodyId b, const Pose& frameA, const Pose& frameB);
   D6Axis axis();
   BodyDef bodyDef();
@@ -113,6 +114,7 @@ class Session {
   World world_;
   Vec3d offset_;  // of all that happens
   std::vector<BodyId> bodies_, deadBodies_;
+  std::vector<SoftId> softs_;
   std::vector<ShapeId> shapes_, deadShapes_;
   std::vector<JointId> joints_, deadJoints_;
   std::set<ShapeId> silent_;  // without contactEvents

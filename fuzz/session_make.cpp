@@ -148,6 +148,38 @@ void Session::make() {
   });
 }
 
+/// Small ones: each particle is a body. What is made is destroyed again now and then, since nothing else may destroy
+/// it.
+void Session::makeSoft() {
+  constexpr size_t kMostSofts = 3;
+  attempt([&] {
+    if (softs_.size() >= kMostSofts || in_.byte() > 220) {
+      if (softs_.empty()) return;
+      const SoftId gone = softs_.back();
+      softs_.pop_back();
+      const std::vector<BodyId> particles = world_.particles(gone);
+      world_.destroy(gone);
+      for (const BodyId particle : particles) bodyGone(particle);
+      return;
+    }
+    SoftDef def;
+    const int cells = 1 + static_cast<int>(in_.below(2));
+    if (in_.byte() < 250) def.mesh = makeTetBox({0.3f, 0.2f, 0.4f}, cells, 1, 1);
+    def.pose = placePose();
+    if (in_.flag()) def.velocity = {in_.vector(), in_.vector()};
+    if (in_.flag()) def.material = {in_.number(), in_.number(), in_.number()};
+    if (in_.flag()) def.radius = in_.number();
+    def.surface = material();
+    def.filter = filter();
+    const SoftId made = world_.create(def);
+    softs_.push_back(made);
+    for (const BodyId particle : world_.particles(made)) {
+      bodies_.push_back(particle);
+      for (const ShapeId shape : world_.shapes(particle)) shapes_.push_back(shape);
+    }
+  });
+}
+
 void Session::makeJoint() {
   attempt([&] {
     const BodyId a = anyBody(), b = anyBody();

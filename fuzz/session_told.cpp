@@ -106,8 +106,8 @@ uint64_t Session::told() const {
     const Velocity v = world_.velocity(id);
     digest.take(world_.type(id), world_.pose(id), v.linear, v.angular, world_.mass(id), world_.inertia(id),
                 world_.centerOfMass(id), world_.userData(id));
-    digest.take(world_.linearDamping(id), world_.angularDamping(id), world_.gravityScale(id), world_.locks(id), world_.iterations(id),
-                world_.maxLinearSpeed(id), world_.maxAngularSpeed(id));
+    digest.take(world_.linearDamping(id), world_.angularDamping(id), world_.gravityScale(id), world_.locks(id),
+                world_.iterations(id), world_.maxLinearSpeed(id), world_.maxAngularSpeed(id));
     for (const ShapeId shape : world_.shapes(id)) digest.take(shape);
   }
   for (const ShapeId id : shapes_) {

@@ -51,6 +51,7 @@ std::vector<Line> ragdollLines();
 std::vector<Line> stateLines();
 std::vector<Line> rollbackLines();
 std::vector<Line> sleepLines();
+std::vector<Line> softLines();
 std::vector<Line> badInputLines();
 /// What is not built yet, by name.
 std::vector<Line> skippedLines();

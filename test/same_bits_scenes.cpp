@@ -5,6 +5,7 @@
 #include <avbd/height_field.h>
 #include <avbd/hull.h>
 #include <avbd/mesh.h>
+#include <avbd/tet_mesh.h>
 
 #include <array>
 #include <cmath>
@@ -161,6 +162,24 @@ void addWaves(World& world, Draws& draws) {
 }
 
 // Every convex shape on a height field and a mesh side by side.
+// Two soft cubes that fall on the ground, a box hanging on a corner of one of them.
+World soft(const WorldDef& def) {
+  World world = begin(def);
+  const auto cube = makeTetBox({0.3f, 0.3f, 0.3f}, 3, 3, 3);
+  for (int i = 0; i < 2; ++i) {
+    const SoftId id = world.create(SoftDef{.mesh = cube,
+                                           .pose = {{1.0 * i, 0.5, 0}, {0.8f, 0, 0.6f, 0}},
+                                           .velocity = {{1, 0, 0}, {0, 1, 2}},
+                                           .material = {.youngsModulus = i == 0 ? 2e4f : 5e5f}});
+    if (i > 0) continue;
+    const Pose corner = world.pose(world.particles(id).back());
+    const BodyId box =
+        world.create(BodyDef{.position = corner.position + Vec3d{0, 0.2, 0}, .shape = Box{0.1f, 0.1f, 0.1f}});
+    world.create(BallJoint{.bodyA = world.particles(id).back(), .bodyB = box, .frameB = {{0, -0.2, 0}, {}}});
+  }
+  return world;
+}
+
 World surfaces(const WorldDef& def) {
   World world = begin(def);
   Draws draws(7);
@@ -203,13 +222,10 @@ std::vector<Trial> smallTrials() {
     def.substeps = 3;
     return mixed(def);
   };
-  return {{"small_pyramid", pyramid, 60, true},
-          {"short_chain", chain, 60, true},
-          {"mixed", mixed, 90, true},
-          {"mixed_substeps", substeps, 30},
-          {"joints", joints, 60, true},
-          {"arm", arm, 60, false, holdArm},
-          {"surfaces", surfaces, 90}};
+  return {{"small_pyramid", pyramid, 60, true}, {"short_chain", chain, 60, true},
+          {"mixed", mixed, 90, true},           {"mixed_substeps", substeps, 30},
+          {"joints", joints, 60, true},         {"arm", arm, 60, false, holdArm},
+          {"surfaces", surfaces, 90},           {"soft", soft, 60}};
 }
 
 std::vector<Trial> sceneTrials() {

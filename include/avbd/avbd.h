@@ -18,6 +18,8 @@
 #include <avbd/mover.h>
 #include <avbd/profile.h>
 #include <avbd/query.h>
+#include <avbd/soft.h>
 #include <avbd/tasks.h>
+#include <avbd/tet_mesh.h>
 #include <avbd/types.h>
 #include <avbd/world.h>

@@ -9,6 +9,7 @@
 #include <avbd/joint.h>
 #include <avbd/profile.h>
 #include <avbd/query.h>
+#include <avbd/soft.h>
 #include <avbd/tasks.h>
 
 #include <array>
@@ -84,12 +85,15 @@ class World {
   JointId create(const PulleyJoint& def);
   JointId create(const Coupling& def);
   JointId create(const CustomJoint& def);
-  void destroy(BodyId id);   ///< with its shapes and its joints
+  SoftId create(const SoftDef& def);
+  void destroy(BodyId id);   ///< with its shapes and its joints; not a particle
   void destroy(ShapeId id);  ///< as create; a dynamic body that loses its last mass keeps what it had
   void destroy(JointId id);  ///< with the couplings that name it
+  void destroy(SoftId id);   ///< with its particles and their joints
   bool isAlive(BodyId id) const;
   bool isAlive(ShapeId id) const;
   bool isAlive(JointId id) const;
+  bool isAlive(SoftId id) const;
   /// Shapes of these two bodies never touch from now on, until allowCollision or one of the bodies is destroyed. Once
   /// more changes nothing.
   void excludeCollision(BodyId a, BodyId b);
@@ -121,6 +125,18 @@ class World {
   size_t bodyCount() const;
   size_t shapeCount() const;
   size_t jointCount() const;
+
+  // Soft bodies.
+  std::vector<SoftId> softBodies() const;  ///< in order of their slots
+  std::shared_ptr<const TetMeshData> mesh(SoftId id) const;
+  SoftMaterial material(SoftId id) const;
+  float radius(SoftId id) const;                          ///< [m] as SoftDef::radius
+  std::vector<BodyId> particles(SoftId id) const;         ///< by point of the mesh
+  SoftId softBody(BodyId id) const;                       ///< null of a body that is no particle
+  void getPoints(SoftId id, std::span<Vec3d> out) const;  ///< where the particles are [m]; Error for another length
+  double volume(SoftId id) const;                         ///< [m^3] of all tetrahedra now
+  uint64_t userData(SoftId id) const;
+  void setUserData(SoftId id, uint64_t data);
 
   // Bodies.
   BodyType type(BodyId id) const;

@@ -33,6 +33,7 @@ class SnapshotZoo {
     addPile();
     addSurfaces();
     addJoints();
+    addSoft();
     if (hook) world.setContactHook(slippery);
   }
 
@@ -56,6 +57,16 @@ class SnapshotZoo {
   std::vector<JointId> joints;
 
  private:
+  void addSoft() {
+    const SoftId soft = world.create(SoftDef{.mesh = makeTetBox({0.3f, 0.2f, 0.3f}, 2, 1, 2),
+                                             .pose = {{-9, 0.4, -9}, {}},
+                                             .velocity = {{0.5f, 0, 0}, {0, 1, 0}}});
+    const BodyId tied = add({.position = {-8.5, 0.5, -9}, .shape = Sphere{0.1f}});
+    const BodyId corner = world.particles(soft).back();
+    const Vec3d at = world.pose(corner).position;
+    joints.push_back(
+        world.create(BallJoint{.bodyA = corner, .bodyB = tied, .frameB = {at - world.pose(tied).position, {}}}));
+  }
   void addPile() {
     const std::vector<Vec3> corners = {{0.4f, 0, 0},     {-0.4f, 0.1f, 0}, {0, 0.4f, 0},
                                        {0, -0.4f, 0.1f}, {0, 0, 0.4f},     {0.1f, 0, -0.4f}};

@@ -57,7 +57,13 @@ BodyId World::create(const BodyDef& def) {
   return impl_->data.bodyIds.id(addBody(impl_->data, def, plan));
 }
 
-void World::destroy(BodyId id) { removeBody(impl_->data, slotOf(impl_->data, id, Path("World::destroy") / "id")); }
+void World::destroy(BodyId id) {
+  const Path path("World::destroy");
+  const uint32_t slot = slotOf(impl_->data, id, path / "id");
+  if (impl_->data.bodies[slot].soft != kNone)
+    (path / "id").refuse(toText(id), "must not name a particle of a soft body");
+  removeBody(impl_->data, slot);
+}
 
 void World::excludeCollision(BodyId a, BodyId b) {
   const auto [slotA, slotB] = twoSlots(impl_->data, a, b, Path("World::excludeCollision"));

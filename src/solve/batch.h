@@ -17,6 +17,7 @@
 #include <span>
 
 #include "avbd/rows/family.h"
+#include "avbd/rows/tet_elastic.h"
 #include "lane/tile.h"
 #include "solve/free_body.h"
 
@@ -75,6 +76,14 @@ struct TetTiles {
   Tile<rows::TetVolume>* tile = nullptr;
   const uint32_t* node[4] = {};
   Tile<NodeOp>* op = nullptr;
+  uint32_t tiles = 0;
+};
+
+/// Elements of soft bodies.
+struct ElasticTiles {
+  const Tile<rows::TetElastic>* tile = nullptr;
+  const uint32_t* node[4] = {};
+  Tile<rows::ElasticOp>* op = nullptr;
   uint32_t tiles = 0;
 };
 
@@ -138,6 +147,7 @@ struct BatchView {
   PairTiles<rows::FullContact> full;
   std::span<const SweptContact> swept;  ///< contacts whose rows follow the iterations (swept_contact.h)
   TetTiles tets;
+  ElasticTiles elastic;
   ScalarJoints scalar;
   LinkedJoints linked;
   Tile<PairOp>* op = nullptr;  ///< contacts, then balls, then fixed, then scalar joints

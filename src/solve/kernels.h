@@ -172,20 +172,21 @@ void dualPairs(const BatchView& v, const PairTiles<Family>& tiles, Slice range, 
   });
 }
 
-AVBD_INLINE void gatherNodes(const BatchView& v, const float* array, uint32_t at, V3<R> (&node)[4]) {
-  for (int i = 0; i < 4; ++i) node[i] = gatherTwist<N>(array, v.tets.node[i] + at).lin;
+using NodeRows = const uint32_t* const (&)[4];  ///< body rows of the four nodes, by lane
+
+AVBD_INLINE void gatherNodes(NodeRows rows, const float* array, uint32_t at, V3<R> (&node)[4]) {
+  for (int i = 0; i < 4; ++i) node[i] = gatherTwist<N>(array, rows[i] + at).lin;
 }
 
 /// Adds K values a node to rows of an array, lane after lane and node after node.
 template <int K>
-AVBD_INLINE void scatterNodes(float* array, int stride, const TetTiles& tets, uint32_t at, const R (&value)[4][K]) {
+AVBD_INLINE void scatterNodes(float* array, int stride, NodeRows rows, uint32_t at, const R (&value)[4][K]) {
   alignas(64) float lanes[4][K][N];
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < K; ++k) lane::store(lanes[i][k], value[i][k]);
   for (uint32_t l = 0; l < N; ++l)
     for (int i = 0; i < 4; ++i)
-      for (int k = 0; k < K; ++k)
-        array[size_t(tets.node[i][at + l]) * static_cast<size_t>(stride) + k] += lanes[i][k][l];
+      for (int k = 0; k < K; ++k) array[size_t(rows[i][at + l]) * static_cast<size_t>(stride) + k] += lanes[i][k][l];
 }
 
 void stampTets(const BatchView& v, bool dual) {
@@ -193,7 +194,7 @@ void stampTets(const BatchView& v, bool dual) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     TetVolume<R> tet = v.tets.tile[t].load<N>(o);
     V3<R> d[4];
-    gatherNodes(v, v.d, at, d);
+    gatherNodes(v.tets.node, v.d, at, d);
     if (dual) {
       BlockDualSink<R, 4> sink{splat<R>(1)};
       tet.rows(d, sink);
@@ -212,8 +213,8 @@ void stampTets(const BatchView& v, bool dual) {
     }
     op.k = sink.k;
     v.tets.op[t].store<N>(o, op);
-    scatterNodes(v.gradient, 8, v.tets, at, gradient);
-    scatterNodes(v.hessian, kHessianRow, v.tets, at, block);
+    scatterNodes(v.gradient, 8, v.tets.node, at, gradient);
+    scatterNodes(v.hessian, kHessianRow, v.tets.node, at, block);
   });
 }
 
@@ -221,10 +222,38 @@ void dualTets(const BatchView& v) {
   forLanes({0, v.tets.tiles}, [&](uint32_t t, int o) {
     TetVolume<R> tet = v.tets.tile[t].load<N>(o);
     V3<R> d[4];
-    gatherNodes(v, v.d, t * kTile + static_cast<uint32_t>(o), d);
+    gatherNodes(v.tets.node, v.d, t * kTile + static_cast<uint32_t>(o), d);
     BlockDualSink<R, 4> sink{splat<R>(1)};
     tet.rows(d, sink);
     v.tets.tile[t].store<N>(o, tet);
+  });
+}
+
+AVBD_INLINE void scatterVectors(float* array, NodeRows rows, uint32_t at, const V3<R> (&value)[4]) {
+  R out[4][3];
+  for (int i = 0; i < 4; ++i) out[i][0] = value[i].x, out[i][1] = value[i].y, out[i][2] = value[i].z;
+  scatterNodes(array, 8, rows, at, out);
+}
+
+void stampElastic(const BatchView& v) {
+  const ElasticTiles& all = v.elastic;
+  forLanes({0, all.tiles}, [&](uint32_t t, int o) {
+    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
+    const TetElastic<R> tet = all.tile[t].load<N>(o);
+    V3<R> d[4], gradient[4];
+    gatherNodes(all.node, v.d, at, d);
+    const Deformation<R> s = tet.deformation(d);
+    tet.gradient(s, gradient);
+    all.op[t].store<N>(o, tet.op(s));
+    scatterVectors(v.gradient, all.node, at, gradient);
+    const V3<R> g[4] = {-(tet.gb + tet.gc + tet.gd), tet.gb, tet.gc, tet.gd};
+    R block[4][6];
+    for (int i = 0; i < 4; ++i) {
+      const Sym3<R> m = tet.block(s, g[i]);
+      const R entries[6] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
+      for (int k = 0; k < 6; ++k) block[i][k] = entries[k];
+    }
+    scatterNodes(v.hessian, kHessianRow, all.node, at, block);
   });
 }
 
@@ -239,6 +268,7 @@ void stampOthers(const BatchView& v, const SolveSettings& s, bool dual) {
   stampPairs<FixedJoint, true>(v, v.fixed, {0, v.fixed.tiles}, op, s.jointLeak, dual);
   stampFull(v, s.contactLeak, dual);
   stampTets(v, dual);
+  stampElastic(v);
 }
 
 void updateContacts(const BatchView& v, const SolveSettings& s, Slice tiles) {
@@ -284,7 +314,7 @@ void multiplyTets(const BatchView& v) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     const NodeOp<R> op = v.tets.op[t].load<N>(o);
     V3<R> p[4];
-    gatherNodes(v, v.p, at, p);
+    gatherNodes(v.tets.node, v.p, at, p);
     R sum = zero<R>();
     for (int i = 0; i < 4; ++i) sum = sum + dot(op.lin[i], p[i]);
     const R force = sum * op.k;
@@ -293,7 +323,18 @@ void multiplyTets(const BatchView& v) {
       const V3<R> f = op.lin[i] * force;
       value[i][0] = f.x, value[i][1] = f.y, value[i][2] = f.z;
     }
-    scatterNodes(v.q, 8, v.tets, at, value);
+    scatterNodes(v.q, 8, v.tets.node, at, value);
+  });
+}
+
+void multiplyElastic(const BatchView& v) {
+  const ElasticTiles& all = v.elastic;
+  forLanes({0, all.tiles}, [&](uint32_t t, int o) {
+    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
+    V3<R> p[4], out[4];
+    gatherNodes(all.node, v.p, at, p);
+    multiply(all.op[t].load<N>(o), p, out);
+    scatterVectors(v.q, all.node, at, out);
   });
 }
 
@@ -308,6 +349,7 @@ void multiplyOthers(const BatchView& v) {
   multiplyPairs(v, v.scalar.a, v.scalar.b, op, {0, v.scalar.tiles});
   multiplyFull(v);
   multiplyTets(v);
+  multiplyElastic(v);
 }
 
 }  // namespace

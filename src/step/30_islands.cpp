@@ -5,6 +5,7 @@
 #include "step/step_data.h"
 #include "world/joints.h"
 #include "world/pairs.h"
+#include "world/soft.h"
 
 namespace avbd {
 
@@ -70,6 +71,11 @@ void joinBodies(const WorldData& world, StepData& step) {
       first = body;
     });
   }
+  world.softIds.forEach([&](uint32_t slot) {
+    const SoftData& soft = world.softs[slot];
+    if (isAsleep(world, soft)) return;
+    for (const uint32_t body : soft.bodies) join(step.parent, soft.bodies[0], body);
+  });
 }
 
 /// Turns the islands' counts into the beginnings of consecutive ranges and clears them, to be counted again by who
@@ -109,6 +115,18 @@ void listBodies(const WorldData& world, StepData& step) {
     island.mass += mass;
     island.iterations = std::max(island.iterations, iterations > 0 ? iterations : world.def.iterations);
   }
+}
+
+void listSofts(const WorldData& world, StepData& step) {
+  world.softIds.forEach([&](uint32_t slot) {
+    if (!isAsleep(world, world.softs[slot])) ++step.islands[step.islandOf[world.softs[slot].bodies[0]]].softCount;
+  });
+  step.islandSofts.resize(layOut(step.islands, &Island::softBegin, &Island::softCount));
+  world.softIds.forEach([&](uint32_t slot) {
+    if (isAsleep(world, world.softs[slot])) return;
+    Island& island = step.islands[step.islandOf[world.softs[slot].bodies[0]]];
+    step.islandSofts[island.softBegin + island.softCount++] = slot;
+  });
 }
 
 uint32_t islandOfJoint(const WorldData& world, const StepData& step, uint32_t slot) {
@@ -188,6 +206,7 @@ void findIslands(WorldData& world, StepData& step) {
   listPairs(step);
   noteSwept(world, step);
   listJoints(world, step);
+  listSofts(world, step);
   world.report.bodies = static_cast<uint32_t>(step.order.size());
   world.report.islands = static_cast<uint32_t>(step.islands.size());
   world.report.joints = static_cast<uint32_t>(step.islandJoints.size());

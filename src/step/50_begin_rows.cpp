@@ -16,6 +16,7 @@ void beginRows(WorldData& world, StepData& step) {
   fillFullContacts(world, step);
   listSwept(world, step);
   fillJoints(world, step);
+  fillElements(world, step);
   for (size_t i = 0; i < step.batches.size(); ++i) step.backend->prepareOthers(step.view(i), step.solve);
 }
 

@@ -79,6 +79,13 @@ Vec3 steadyAcceleration(const BodyData& body, float weight) {
   return size > limit ? body.acceleration * (limit / size) : body.acceleration;
 }
 
+/// In the last step nothing carried it: where the conjugate gradients do not reach, a particle that is carried has to
+/// start from its velocity, as at rest all its forces are in balance there.
+bool fallsFreely(const WorldData& world, const BodyData& body) {
+  const Vec3 gravity = world.def.gravity * body.gravityScale, off = body.acceleration - gravity;
+  return dot(off, off) <= kLoaded * kLoaded * dot(gravity, gravity);
+}
+
 void write(float* row, Vec3 lin, Vec3 ang) {
   row[0] = lin.x, row[1] = lin.y, row[2] = lin.z;
   row[4] = ang.x, row[5] = ang.y, row[6] = ang.z;
@@ -88,6 +95,10 @@ void predictBody(const WorldData& world, StepData& step, uint32_t index, uint32_
   const size_t at = size_t(8) * row;
   const BodyData& body = world.bodies[step.order[index]];
   const float weight = length(world.def.gravity) * rows::abs(body.gravityScale) * body.mass;
+  if (body.soft != kNone) {
+    if (fallsFreely(world, body)) return void(std::copy_n(step.target.data() + at, 8, step.d.data() + at));
+    return write(step.d.data() + at, unlocked(body.linearVelocity * step.h, body.locks), {});
+  }
   if (length(step.carried[row]) <= kLoaded * weight) {
     std::copy_n(step.target.data() + at, 8, step.d.data() + at);
     return;

@@ -7,12 +7,18 @@ namespace avbd {
 
 namespace {
 
+/// At most, of an island with elements. What a search leaves undone an element feels as a missing force, and one that
+/// is done ends by itself: a stiff beam costs less with many than with few, as the outer iterations then find nothing.
+constexpr int kElasticKrylov = 100;
+
 void solveBatch(const WorldData& world, StepData& step, uint32_t index, Jobs* jobs, int worker) {
   const BatchRange& batch = step.batches[index];
-  const SolveSettings settings = withIterations(step.solve, batch.iterations);
+  SolveSettings settings = withIterations(step.solve, batch.iterations);
+  if (batch.elasticTiles > 0 && world.def.krylovIterations == 0) settings.krylovIterations = kElasticKrylov;
   Forest* forest = batch.forest != kNone ? &step.forests[batch.forest] : nullptr;
   const auto at = static_cast<size_t>(worker);
-  if (world.def.primalSolver == PrimalSolver::BlockSweep) {
+  // Colours know nothing of elements.
+  if (world.def.primalSolver == PrimalSolver::BlockSweep && batch.elasticTiles == 0) {
     const Colors colors{step.coloring.ofOrder.data() + batch.orderBegin, step.coloring.colors};
     solveSweep(step.view(index), *step.backend, settings, colors, step.sweep[at]);
   } else {

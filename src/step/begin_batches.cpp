@@ -14,6 +14,8 @@ void clearLanes(StepData& step) {
     for (int side = 0; side < 2; ++side) lanes[side].clear();
   for (auto& lanes : step.tetRow) lanes.clear();
   step.contactPair.clear(), step.ballJoint.clear(), step.fixedJoint.clear(), step.tetJoint.clear();
+  for (auto& lanes : step.elasticRow) lanes.clear();
+  step.elements.clear();
   step.fullPair.clear(), step.scalar.clear(), step.linked.clear();
   step.batches.clear(), step.ranges.clear(), step.lockedRows.clear(), step.locks.clear();
   step.chunks.clear(), step.seams.clear(), step.units.clear();
@@ -37,7 +39,7 @@ void addBodies(const WorldData& world, StepData& step, BatchRange& batch) {
     }
     range.end = batch.bodies;
     range.floating = island.floating && batch.lockedCount == lockedBefore;
-    range.coupled = island.pairCount > 0;
+    range.coupled = island.pairCount > 0 || island.softCount > 0;
     step.ranges.push_back(range);
   }
 }
@@ -78,6 +80,24 @@ void addJoints(const WorldData& world, StepData& step, BatchRange& batch) {
   batch.ballTiles = static_cast<uint32_t>(step.ballJoint.size()) / kTile - batch.ballTile;
   batch.fixedTiles = static_cast<uint32_t>(step.fixedJoint.size()) / kTile - batch.fixedTile;
   batch.tetTiles = static_cast<uint32_t>(step.tetJoint.size()) / kTile - batch.tetTile;
+}
+
+void addElements(const WorldData& world, StepData& step, BatchRange& batch) {
+  batch.elasticTile = static_cast<uint32_t>(step.elements.size()) / kTile;
+  for (uint32_t n = 0; n < batch.islandCount; ++n) {
+    const Island& island = step.islands[batch.islandBegin + n];
+    for (uint32_t i = 0; i < island.softCount; ++i) {
+      const uint32_t slot = step.islandSofts[island.softBegin + i];
+      const SoftData& soft = world.softs[slot];
+      for (uint32_t tet = 0; tet < soft.mesh->tets().size(); ++tet) {
+        step.elements.push_back({slot, tet});
+        for (size_t k = 0; k < 4; ++k) step.elasticRow[k].push_back(step.rowOf[soft.bodies[soft.mesh->tets()[tet][k]]]);
+      }
+    }
+  }
+  step.elements.resize(roundUp(static_cast<uint32_t>(step.elements.size())));
+  for (auto& lanes : step.elasticRow) padLanes(lanes, batch.bodies);
+  batch.elasticTiles = static_cast<uint32_t>(step.elements.size()) / kTile - batch.elasticTile;
 }
 
 /// Makes room for `count` that somebody else writes. What was in it is of the last step, and not copied.
@@ -122,6 +142,8 @@ void resizeTiles(StepData& step) {
                full = step.fullPair.size() / kTile, scalars = step.scalar.size() / kTile;
   makeRoom(step.contacts, contacts), makeRoom(step.balls, balls), makeRoom(step.fixed, fixed);
   makeRoom(step.tets, tets), makeRoom(step.full, full);
+  const size_t elements = step.elements.size() / kTile;
+  makeRoom(step.elastic, elements), makeRoom(step.elasticOp, elements);
   makeRoom(step.op, contacts + balls + fixed + scalars), makeRoom(step.tetOp, tets), makeRoom(step.fullOp, full);
 }
 
@@ -174,6 +196,7 @@ void layOutBatches(const WorldData& world, StepData& step) {
     addContacts(step, batch);
     addFull(world, step, batch);
     addJoints(world, step, batch);
+    addElements(world, step, batch);
     batch.rows = roundUp(batch.rows);
     step.chunks.back().rows.end = batch.chunkCount > 1 ? roundUp(batch.bodies) : batch.rows;
     rows += batch.rows;
@@ -219,6 +242,10 @@ BatchView StepData::view(size_t index) {
   v.tets.op = tetOp.data() + b.tetTile;
   v.tets.tiles = b.tetTiles;
   for (int i = 0; i < 4; ++i) v.tets.node[i] = tetRow[i].data() + b.tetTile * kTile;
+  v.elastic.tile = elastic.data() + b.elasticTile;
+  v.elastic.op = elasticOp.data() + b.elasticTile;
+  v.elastic.tiles = b.elasticTiles;
+  for (int i = 0; i < 4; ++i) v.elastic.node[i] = elasticRow[i].data() + b.elasticTile * kTile;
   v.locked = lockedRows.data() + b.lockedBegin, v.locks = locks.data() + b.lockedBegin;
   v.lockedCount = b.lockedCount;
   return v;

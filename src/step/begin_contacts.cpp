@@ -88,6 +88,9 @@ rows::Contact<float> contactRows(const WorldData& world, const StepData& step, P
     c.point[i] = pointRows(world, step, pair, i, leak);
     c.point[i].arm = c.point[i].arm - c.armA;
   }
+  // A particle touches at one point and does not turn.
+  if (isParticle(world, pair.bodyA)) c.armA = {};
+  if (isParticle(world, pair.bodyB)) c.armB = {};
   if (!step.swept.empty()) followSwept(step, pair, c);
   noteImpacts(world, step, pair, c);
   return c;

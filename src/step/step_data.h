@@ -23,6 +23,7 @@ struct Island {
   uint32_t bodyBegin = 0, bodyCount = 0;    ///< in StepData::order
   uint32_t pairBegin = 0, pairCount = 0;    ///< in StepData::islandPairs
   uint32_t jointBegin = 0, jointCount = 0;  ///< in StepData::islandJoints
+  uint32_t softBegin = 0, softCount = 0;    ///< in StepData::islandSofts
   float mass = 0;                           ///< [kg]
   int iterations = 0;                       ///< outer ones
   float startTime = 1;                      ///< of the step: where its iterations start
@@ -39,6 +40,7 @@ struct BatchRange {
   uint32_t ballTile = 0, ballTiles = 0;
   uint32_t fixedTile = 0, fixedTiles = 0;
   uint32_t tetTile = 0, tetTiles = 0;
+  uint32_t elasticTile = 0, elasticTiles = 0;
   uint32_t fullTile = 0, fullTiles = 0;
   uint32_t scalarTile = 0, scalarTiles = 0, scalarCount = 0;
   uint32_t linkedBegin = 0, linkedCount = 0;
@@ -285,6 +287,7 @@ struct StepData {
   std::vector<Island> islands;
   std::vector<uint32_t> islandPairs;   ///< pairs with points, island by island, by key
   std::vector<uint32_t> islandJoints;  ///< joint slots
+  std::vector<uint32_t> islandSofts;   ///< slots of soft bodies
   std::vector<BatchRange> batches;
   std::vector<Chunk> chunks;
   std::vector<Seam> seams;
@@ -325,6 +328,14 @@ struct StepData {
   std::vector<uint32_t> contactRow[2], ballRow[2], fixedRow[2], tetRow[4], fullRow[2], scalarRow[2];
   std::vector<uint32_t> contactPair, ballJoint, fixedJoint, tetJoint;  ///< by lane: pair or joint slot, kNone
   UnwrittenVector<Tile<PairOp>> op;
+  /// Of an element by lane: its soft body, kNone, and its place in the mesh.
+  struct Element {
+    uint32_t soft = kNone, tet = 0;
+  };
+  std::vector<Element> elements;
+  std::vector<uint32_t> elasticRow[4];
+  UnwrittenVector<Tile<rows::TetElastic>> elastic;
+  UnwrittenVector<Tile<rows::ElasticOp>> elasticOp;
   std::vector<uint32_t> fullPair;  ///< by lane, as contactPair
   UnwrittenVector<Tile<NodeOp>> tetOp;
   UnwrittenVector<Tile<ScaledOp>> fullOp;

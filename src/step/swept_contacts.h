@@ -23,7 +23,8 @@ inline ContactArms armsOf(const WorldData& world, const StepData& step, const Pa
   const SweptPair* swept = step.swept.empty() ? nullptr : sweptOf(step, pair);
   if (swept) return {swept->armA[point], swept->armB[point]};
   const Vec3 arm = pair.manifold.points[point].position;
-  return {arm, arm - toFloat(world.bodies[pair.bodyB].position - world.bodies[pair.bodyA].position)};
+  const Vec3 apart = toFloat(world.bodies[pair.bodyB].position - world.bodies[pair.bodyA].position);
+  return {isParticle(world, pair.bodyA) ? Vec3{} : arm, isParticle(world, pair.bodyB) ? Vec3{} : arm - apart};
 }
 
 }  // namespace avbd

@@ -97,6 +97,10 @@ uint32_t slotOf(const WorldData& data, JointId id, const Path& path) {
   return livingSlot(data.jointIds, id, path, "must name a living joint of this world");
 }
 
+uint32_t slotOf(const WorldData& data, SoftId id, const Path& path) {
+  return livingSlot(data.softIds, id, path, "must name a living soft body of this world");
+}
+
 uint32_t movableSlotOf(const WorldData& data, BodyId id, const Path& path) {
   const uint32_t slot = slotOf(data, id, path);
   if (data.bodies[slot].type == BodyType::Static) path.refuse(toText(id), "must not name a static body");

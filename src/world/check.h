@@ -73,10 +73,14 @@ struct BodyPlan {
 };
 BodyPlan checkedBody(const BodyDef& def, float unit);
 
+/// Returns the soft body with its rotation made exact.
+SoftDef checkedSoft(const WorldData& data, const SoftDef& def);
+
 // Ids. `path` names the call and its parameter. Return the slot.
 uint32_t slotOf(const WorldData& data, BodyId id, const Path& path);
 uint32_t slotOf(const WorldData& data, ShapeId id, const Path& path);
 uint32_t slotOf(const WorldData& data, JointId id, const Path& path);
+uint32_t slotOf(const WorldData& data, SoftId id, const Path& path);
 uint32_t movableSlotOf(const WorldData& data, BodyId id, const Path& path);  ///< not a static body's
 uint32_t dynamicSlotOf(const WorldData& data, BodyId id, const Path& path);
 

@@ -69,7 +69,7 @@ void codeThings(Reader& in, KnownThings& things) {
   const size_t count = in.count(sizeof(uint8_t) + sizeof(uint64_t));
   for (uint32_t i = 0; i < count; ++i) {
     const auto kind = in.take<SharedTable::Kind>();
-    require(kind <= SharedTable::Kind::Family, "a thing of no kind");
+    require(kind <= SharedTable::Kind::TetMesh, "a thing of no kind");
     things.entryOf.push_back(things.table.find(kind, in.take<uint64_t>(), i));
   }
 }
@@ -137,9 +137,10 @@ void checkHook(bool asked, const WorldData& restored, const WorldData& world) {
 /// All members by name: a new one does not compile before it is here, and in codeWorld() or another section if it is
 /// state.
 void allMembers(WorldData& data) {
-  [[maybe_unused]] auto& [def, bodyIds, shapeIds, jointIds, bodies, shapes, joints, d6, links, couplings, jointForces,
-                          breakable, pairs, excludedPairs, tree, unpaired, forgotten, treeBehind, time, lastSubstep,
-                          report, means, events, lostTouches, contactHook, hookedShapes, sleep, wishesChanged] = data;
+  [[maybe_unused]] auto& [def, bodyIds, shapeIds, jointIds, softIds, bodies, shapes, joints, d6, links, softs,
+                          couplings, jointForces, breakable, pairs, excludedPairs, tree, unpaired, forgotten,
+                          treeBehind, time, lastSubstep, report, means, events, lostTouches, contactHook, hookedShapes,
+                          sleep, wishesChanged] = data;
 }
 
 void read(Reader& in, const WorldData& world, SharedTable& table, PairSides& sides, WorldData& out) {
@@ -153,11 +154,12 @@ void read(Reader& in, const WorldData& world, SharedTable& table, PairSides& sid
   codeWorld(in, out);
   require(out.def.iterations >= 1 && out.def.iterations <= kMaxIterations, "iterations");
   require(out.def.substeps >= 1 && out.def.substeps <= 1000, "substeps");
-  codeIds(in, out.bodyIds), codeIds(in, out.shapeIds), codeIds(in, out.jointIds);
+  codeIds(in, out.bodyIds), codeIds(in, out.shapeIds), codeIds(in, out.jointIds), codeIds(in, out.softIds);
   codeBodies(in, out);
   codeShapes(in, out, things);
   checkHook(asked, out, world);
   codeJoints(in, out, things);
+  codeSofts(in, out, things);
   codeLists(in, out);
   checkLinks(out);
   fillSides(out, sides);
@@ -190,6 +192,7 @@ void numberThings(const WorldData& data, SharedTable& table) {
   data.jointIds.forEach([&](uint32_t slot) {
     if (data.joints[slot].type == JointType::Custom) table.number(data.links[slot].family);
   });
+  data.softIds.forEach([&](uint32_t slot) { table.number(data.softs[slot].mesh); });
 }
 
 }  // namespace snapshot
@@ -202,10 +205,11 @@ void saveSnapshot(const WorldData& data, SharedTable& table, snapshot::PairSides
   codeThings(out, table);
   out.put(asksHook(data));
   codeWorld(out, data);
-  codeIds(out, data.bodyIds), codeIds(out, data.shapeIds), codeIds(out, data.jointIds);
+  codeIds(out, data.bodyIds), codeIds(out, data.shapeIds), codeIds(out, data.jointIds), codeIds(out, data.softIds);
   codeBodies(out, data);
   codeShapes(out, data, table);
   codeJoints(out, data, table);
+  codeSofts(out, data, table);
   codeLists(out, data);
   fillSides(data, sides);
   codePairs(out, data, sides);

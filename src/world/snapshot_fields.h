@@ -35,11 +35,11 @@ auto snapshotParts(T& x) {
   auto& [position, rotation, linearVelocity, angularVelocity, last, acceleration, force, torque, center, mass, inertia,
          invInertia, linearDamping, angularDamping, gravityScale, iterations, maxLinearSpeed, maxAngularSpeed, radius,
          minExtent, massScale, firstShape, firstJoint, type, locks, massGiven, continuous, canSleep, asleep, toldAsleep,
-         stillTime, sleepIsland, userData] = x;
+         stillTime, soft, sleepIsland, userData] = x;
   return std::tie(position, rotation, linearVelocity, angularVelocity, acceleration, force, torque, center, mass,
                   inertia, invInertia, linearDamping, angularDamping, gravityScale, iterations, maxLinearSpeed,
                   maxAngularSpeed, radius, minExtent, massScale, firstShape, firstJoint, type, locks, massGiven,
-                  continuous, canSleep, asleep, toldAsleep, stillTime, sleepIsland, userData);
+                  continuous, canSleep, asleep, toldAsleep, stillTime, soft, sleepIsland, userData);
 }
 
 /// By hand (snapshot_shapes.cpp): geometry, and what follows from it; materials.

@@ -27,6 +27,9 @@ void codeShapes(Writer& out, const WorldData& data, SharedTable& table);
 void codeShapes(Reader& in, WorldData& data, const KnownThings& things);
 void codeJoints(Writer& out, const WorldData& data, SharedTable& table);
 void codeJoints(Reader& in, WorldData& data, const KnownThings& things);
+/// Soft bodies; their particles must be there.
+void codeSofts(Writer& out, const WorldData& data, SharedTable& table);
+void codeSofts(Reader& in, WorldData& data, const KnownThings& things);
 void codePairs(Writer& out, const WorldData& data, const PairSides& sides);
 void codePairs(Reader& in, WorldData& data, const PairSides& sides);
 void codePairList(Writer& out, const PairSides& sides, const std::vector<PairData>& pairs);

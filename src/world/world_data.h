@@ -2,6 +2,7 @@
 // snapshot is a copy.
 #pragma once
 
+#include <avbd/soft.h>
 #include <avbd/world.h>
 
 #include <vector>
@@ -41,6 +42,7 @@ struct BodyData {
   bool asleep = false;
   bool toldAsleep = false;       ///< as the events say
   float stillTime = 0;           ///< [s] for which it has been slow, up to WorldDef::sleepTime
+  uint32_t soft = kNone;         ///< of a particle: slot of its soft body
   uint32_t sleepIsland = kNone;  ///< of a dynamic body that sleeps: in SleepData::islands
   uint64_t userData = 0;
 };
@@ -122,6 +124,14 @@ struct LinkData {
   std::vector<float> constants, memory;
 };
 
+struct SoftData {
+  std::shared_ptr<const TetMeshData> mesh;
+  SoftMaterial material;
+  float radius = 0;
+  std::vector<uint32_t> bodies;  ///< slots, by point of the mesh
+  uint64_t userData = 0;
+};
+
 /// A pair that touched when it left the list: its end is still to be reported, unless it is found again.
 struct LostTouch {
   ShapeId shape[2];  ///< A, B
@@ -161,11 +171,13 @@ struct WorldData {
   HandlePool<BodyTag> bodyIds;
   HandlePool<ShapeTag> shapeIds;
   HandlePool<JointTag> jointIds;
+  HandlePool<SoftTag> softIds;
   std::vector<BodyData> bodies;  ///< by slot
   std::vector<ShapeData> shapes;
   std::vector<JointData> joints;
   std::vector<D6Data> d6;               ///< by joint slot, up to the highest that needs one
   std::vector<LinkData> links;          ///< likewise
+  std::vector<SoftData> softs;          ///< by slot
   std::vector<uint32_t> couplings;      ///< joint slots, ascending
   bool jointForces = false;             ///< some joint was given a force for the next step
   uint32_t breakable = 0;               ///< how many joints have a bound in `breaks`
@@ -188,6 +200,11 @@ struct WorldData {
   SleepData sleep;
   bool wishesChanged = false;  ///< some shape's contactEvents, hitEvents or contactHook: pairs do not know it yet
 };
+
+/// Of a soft body: it does not turn. False of kNone.
+inline bool isParticle(const WorldData& data, uint32_t body) {
+  return body != kNone && data.bodies[body].soft != kNone;
+}
 
 /// False of kNone, the world.
 inline bool isDynamic(const WorldData& data, uint32_t body) {

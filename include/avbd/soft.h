@@ -1,0 +1,33 @@
+// Soft bodies: elastic solids of tetrahedra.
+//
+// Each point of the mesh is a particle: a dynamic body of its share of the mass that does not turn. So what holds for
+// bodies holds for particles: ball and distance joints attach them to other bodies or to the world and may break,
+// forces act on them, they rest, collide and rub with their surface, and they are named in events and contacts.
+#pragma once
+
+#include <avbd/body.h>
+#include <avbd/tet_mesh.h>
+
+#include <memory>
+
+namespace avbd {
+
+struct SoftMaterial {
+  float youngsModulus = 1e5f;  ///< [Pa] > 0
+  float poissonRatio = 0.3f;   ///< -0.9 .. 0.499
+  float density = 1000;        ///< [kg/m^3] > 0
+};
+
+struct SoftDef {
+  std::shared_ptr<const TetMeshData> mesh{};
+  Pose pose{};          ///< where the mesh lies, unstrained
+  Velocity velocity{};  ///< of the whole: linear at the pose's origin, angular about it
+  SoftMaterial material{};
+  float radius = 0.01f;  ///< [m] > 0: points of the surface touch as balls of this radius
+  Material surface{};    ///< friction of those
+  Filter filter{};
+  bool canSleep = true;
+  uint64_t userData = 0;
+};
+
+}  // namespace avbd

@@ -1,0 +1,252 @@
+// Acceptance, soft bodies: elasticity against theory, laws of motion, shapes that come back.
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/build.h"
+#include "scenes/catalogue.h"
+
+namespace avbd::scenes {
+namespace {
+
+constexpr float kDensity = 1000;
+
+WorldDef weightless() {
+  WorldDef def;
+  def.gravity = {};
+  return def;
+}
+
+/// One soft box in a world, with what its figures are made of.
+struct Soft {
+  World world;
+  SoftId id;
+  std::shared_ptr<const TetMeshData> mesh;
+  std::vector<BodyId> particles;
+  float dt = 1.0f / 60;
+
+  Soft(const Settings& settings, const WorldDef& def, Vec3 half, std::array<int, 3> cells, SoftMaterial material,
+       Velocity velocity = {})
+      : world(apply(settings, def)), mesh(makeTetBox(half, cells[0], cells[1], cells[2])) {
+    id = world.create(SoftDef{.mesh = mesh, .velocity = velocity, .material = material});
+    particles = world.particles(id);
+  }
+  /// f(particle, its place at rest) for all.
+  template <class F>
+  void each(F&& f) const {
+    for (size_t i = 0; i < particles.size(); ++i) f(particles[i], mesh->points()[i]);
+  }
+  Vec3d at(BodyId particle) const { return world.pose(particle).position; }
+  void run(double seconds) {
+    for (int i = 0; i < std::lround(seconds / double{dt}); ++i) world.step(dt);
+  }
+  /// Mean of a figure over the particles that `is` chooses by their places at rest.
+  template <class Is, class Of>
+  double mean(Is&& is, Of&& of) const {
+    double sum = 0;
+    int count = 0;
+    each([&](BodyId p, Vec3 rest) {
+      if (is(rest)) sum += of(at(p), rest), ++count;
+    });
+    return sum / count;
+  }
+};
+
+std::vector<Figure> freeFall(const Settings& settings) {
+  std::vector<Figure> figures;
+  for (const float e : {1e3f, 1e4f, 1e5f, 1e6f}) {
+    Soft soft(settings, {}, {0.25f, 0.25f, 0.25f}, {4, 4, 4}, {.youngsModulus = e});
+    double worst = 0, mass = 0;
+    for (const BodyId p : soft.particles) mass += double{soft.world.mass(p)};
+    for (int i = 1; i <= 60; ++i) {
+      const double before = soft.world.momentum().y;
+      soft.world.step(soft.dt);
+      const double rate = (soft.world.momentum().y - before) / (mass * double{soft.dt});
+      worst = std::max(worst, std::fabs(rate / -9.81 - 1));
+    }
+    figures.push_back(atMost("acceleration_error", worst, 1e-4, "of g", "E=" + text(double{e})));
+  }
+  return figures;
+}
+
+std::vector<Figure> spin(const Settings& settings) {
+  Soft soft(settings, weightless(), {0.25f, 0.25f, 0.25f}, {4, 4, 4}, {.youngsModulus = 1e5f},
+            {.linear = {}, .angular = {0, 2, 0}});
+  const double before = soft.world.angularMomentum().y;
+  soft.run(5);
+  return {within("angular_momentum", soft.world.angularMomentum().y / before, 1, 0.01, "of the first")};
+}
+
+/// The energy's own law of a bar: nominal stress [of E] at a stretch y along, with no stress sideways:
+/// mu (1 - y) + lambda (J - 1) y = 0.
+double stressOfBar(double y, double nu) {
+  const double mu = 1 / (2 * (1 + nu)), lambda = nu / ((1 + nu) * (1 - 2 * nu)) + mu;
+  const double volume = 1 + mu * (y - 1) / (lambda * y);
+  return mu * (y - volume / (y * y));
+}
+
+/// How much longer a bar of 1 m becomes that hangs, where Hooke would have it longer by `stretch`.
+double stretchByTheory(double stretch, double nu) {
+  constexpr int kSlices = 200;
+  double sum = 0;
+  for (int i = 0; i < kSlices; ++i) {
+    const double stress = 2 * stretch * (i + 0.5) / kSlices;
+    double low = 1, high = 1.5;
+    while (high - low > 1e-12) (stressOfBar((low + high) / 2, nu) < stress ? low : high) = (low + high) / 2;
+    sum += (low - 1) / kSlices;
+  }
+  return sum;
+}
+
+/// How much longer a bar of 1 m becomes under its own weight, of what theory says.
+double stretchOfBar(const Settings& settings, int across) {
+  constexpr float kStretch = 0.01f;
+  constexpr float kE = kDensity * kGravity / (2 * kStretch);
+  Soft soft(settings, {}, {0.05f, 0.5f, 0.05f}, {across, 8 * across, across},
+            {.youngsModulus = kE, .density = kDensity});
+  bool first = true;
+  soft.each([&](BodyId p, Vec3 rest) {
+    if (rest.y < 0.4999f) return;
+    soft.world.setLocks(p, first ? kLockLinearX | kLockLinearY | kLockLinearZ : kLockLinearY);
+    first = false;
+  });
+  soft.run(5);
+  const double sunk = soft.mean([](Vec3 rest) { return rest.y < -0.4999f; },
+                                [](Vec3d now, Vec3 rest) { return double{rest.y} - now.y; });
+  return sunk / stretchByTheory(double{kStretch}, 0.3);
+}
+
+/// How far the tip of a beam of 1 m and 0.1 m thickness sinks, of what Timoshenko says.
+double sagOfBeam(const Settings& settings, int across, double seconds = 6, float dt = 1.0f / 60) {
+  constexpr double kSag = 0.04, kThick = 0.1, kNu = 0.3;
+  const double e = 1.5 * double{kDensity} * double{kGravity} / (kSag * kThick * kThick);
+  const double kappa = 10 * (1 + kNu) / (12 + 11 * kNu);
+  const double shear = 4 * 2 * (1 + kNu) * kThick * kThick / (12 * kappa);
+  Soft soft(settings, {}, {0.5f, 0.05f, 0.05f}, {8 * across, across, across},
+            {.youngsModulus = static_cast<float>(e), .poissonRatio = static_cast<float>(kNu), .density = kDensity});
+  soft.dt = dt;
+  soft.each([&](BodyId p, Vec3 rest) {
+    if (rest.x < -0.4999f) soft.world.setLocks(p, kLockLinearX | kLockLinearY | kLockLinearZ);
+  });
+  soft.run(seconds);
+  const double sunk = soft.mean([](Vec3 rest) { return rest.x > 0.4999f; },
+                                [](Vec3d now, Vec3 rest) { return double{rest.y} - now.y; });
+  return sunk / (kSag * (1 + shear));
+}
+
+/// Three resolutions: within the bound at the finest, and nearer with each.
+template <class F>
+std::vector<Figure> converging(const std::array<int, 3>& resolutions, F&& ratioOf) {
+  std::vector<Figure> figures;
+  double before = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const double ratio = ratioOf(resolutions[i]), error = std::fabs(ratio - 1);
+    const std::string params = "across=" + text(resolutions[i]);
+    if (i > 0) figures.push_back(holds("nearer", error < before, params));
+    if (i == 2)
+      figures.push_back(within("of_theory", ratio, 1, 0.03, "", params));
+    else
+      figures.push_back(within("of_theory", ratio, 1, 1, "", params));
+    before = error;
+  }
+  return figures;
+}
+
+std::vector<Figure> bar(const Settings& settings) {
+  return converging({1, 2, 3}, [&](int across) { return stretchOfBar(settings, across); });
+}
+
+std::vector<Figure> cantilever(const Settings& settings) {
+  return converging({1, 2, 4}, [&](int across) { return sagOfBeam(settings, across); });
+}
+
+/// A cube between two plates that are 10 % nearer than it is high. Sideways strain by the energy's own formula: no
+/// stress sideways is mu (1 - y) + lambda (J - 1) y = 0 of the stretch y along and J = y s^2.
+std::vector<Figure> poisson(const Settings& settings) {
+  constexpr float kStretch = 0.9f;
+  std::vector<Figure> figures;
+  for (const float nu : {0.1f, 0.3f, 0.45f, 0.49f}) {
+    Soft soft(settings, weightless(), {0.25f, 0.25f, 0.25f}, {4, 4, 4}, {.youngsModulus = 1e5f, .poissonRatio = nu});
+    bool first = true;
+    soft.each([&](BodyId p, Vec3 rest) {
+      soft.world.setPose(p, {{double{rest.x}, double{rest.y * kStretch}, double{rest.z}}, {}});
+      if (std::fabs(rest.y) < 0.2499f) return;
+      soft.world.setLocks(p, first ? kLockLinearX | kLockLinearY | kLockLinearZ : kLockLinearY);
+      first = false;
+    });
+    soft.run(4);
+    const auto side = [&](float sign) {
+      return soft.mean([&](Vec3 rest) { return rest.x * sign > 0.2499f; }, [](Vec3d now, Vec3) { return now.x; });
+    };
+    const double strain = (side(1) - side(-1)) / 0.5 - 1;
+    const double n = double{nu}, y = double{kStretch}, mu = 1 / (2 * (1 + n)),
+                 lambda = n / ((1 + n) * (1 - 2 * n)) + mu;
+    const double volume = 1 - mu * (1 - y) / (lambda * y), expected = std::sqrt(volume / y) - 1;
+    figures.push_back(within("sideways", strain / expected, 1, 0.03, "of theory", "nu=" + text(n)));
+    if (nu == 0.49f)
+      figures.push_back(within("volume", soft.world.volume(soft.id) / soft.mesh->volume(), volume, 0.01, "of rest"));
+  }
+  return figures;
+}
+
+std::vector<Figure> independence(const Settings& settings) {
+  double least = 1e9, most = 0;
+  const auto add = [&](const Settings& with, float dt) {
+    const double sag = sagOfBeam(with, 2, 6, dt);
+    least = std::min(least, sag), most = std::max(most, sag);
+  };
+  for (const int iterations : {5, 10, 20}) {
+    Settings with = settings;
+    with.iterations = iterations;
+    add(with, 1.0f / 60);
+  }
+  for (const float rate : {30.0f, 120.0f, 240.0f}) add(settings, 1 / rate);
+  return {atMost("apart", most / least - 1, 0.03, "", "iterations 5, 10, 20; dt 1/30 .. 1/240")};
+}
+
+/// The worst of the tetrahedra's edges against rest, after the shape was spoilt and left alone.
+double comesBack(const Settings& settings, const std::function<Vec3(Vec3)>& spoilt) {
+  Soft soft(settings, weightless(), {0.25f, 0.25f, 0.25f}, {3, 3, 3}, {.youngsModulus = 1e5f});
+  soft.each([&](BodyId p, Vec3 rest) { soft.world.setPose(p, {toDouble(spoilt(rest)), {}}); });
+  soft.run(10);
+  double worst = 0;
+  for (const auto& tet : soft.mesh->tets())
+    for (size_t i = 0; i < 4; ++i)
+      for (size_t k = 0; k < i; ++k) {
+        const Vec3 rest = soft.mesh->points()[tet[i]] - soft.mesh->points()[tet[k]];
+        const Vec3 now = toFloat(soft.at(soft.particles[tet[i]]) - soft.at(soft.particles[tet[k]]));
+        worst = std::max(worst, double{std::fabs(length(now) / length(rest) - 1)});
+      }
+  return worst;
+}
+
+std::vector<Figure> inverted(const Settings& settings) {
+  Draws draws(7);
+  return {atMost("strain",
+                 comesBack(settings,
+                           [](Vec3 p) {
+                             return Vec3{p.x, 0, p.z};
+                           }),
+                 0.01, "", "flattened"),
+          atMost("strain",
+                 comesBack(settings,
+                           [](Vec3 p) {
+                             return Vec3{p.x, -p.y, p.z};
+                           }),
+                 0.01, "", "mirrored"),
+          atMost("strain",
+                 comesBack(settings,
+                           [&](Vec3) {
+                             return Vec3{draws.next(), draws.next(), draws.next()} * 0.25f;
+                           }),
+                 0.01, "", "scrambled")};
+}
+
+}  // namespace
+
+std::vector<Line> softLines() {
+  return {{"S", "free_fall", freeFall, ""},    {"S", "soft_spin", spin, ""},  {"S", "bar", bar, ""},
+          {"S", "cantilever", cantilever, ""}, {"S", "poisson", poisson, ""}, {"S", "independence", independence, ""},
+          {"S", "inverted", inverted, ""}};
+}
+
+}  // namespace avbd::scenes

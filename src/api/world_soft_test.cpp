@@ -1,0 +1,197 @@
+// Soft bodies in a world: made, refused, carried, attached, asleep, saved, the same bits.
+#include <avbd/avbd.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+namespace avbd {
+namespace {
+
+constexpr float kDt = 1.0f / 60;
+
+std::shared_ptr<const TetMeshData> cube() { return makeTetBox({0.25f, 0.25f, 0.25f}, 3, 3, 3); }
+
+void run(World& world, int steps) {
+  for (int i = 0; i < steps; ++i) world.step(kDt);
+}
+
+struct OnTheGround : testing::Test {
+  World world;
+  BodyId ground = world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
+  SoftId soft = world.create(SoftDef{.mesh = cube(), .pose = {{0, 0.3, 0}, {}}, .userData = 7});
+};
+
+TEST_F(OnTheGround, SaysWhatItIs) {
+  EXPECT_EQ(world.softBodies(), std::vector<SoftId>{soft});
+  EXPECT_EQ(world.userData(soft), 7u);
+  const std::vector<BodyId> particles = world.particles(soft);
+  ASSERT_EQ(particles.size(), 64u);
+  EXPECT_EQ(world.bodyCount(), 65u);
+  EXPECT_EQ(world.softBody(particles[5]), soft);
+  EXPECT_FALSE(world.softBody(ground));
+  double mass = 0;
+  for (const BodyId p : particles) mass += double{world.mass(p)};
+  EXPECT_NEAR(mass, 125, 1e-3);
+  EXPECT_NEAR(world.volume(soft), 0.125, 1e-6);
+  std::vector<Vec3d> points(64);
+  world.getPoints(soft, points);
+  for (size_t i = 0; i < points.size(); ++i) EXPECT_EQ(points[i], world.pose(particles[i]).position);
+  std::vector<Vec3d> few(3);
+  EXPECT_THROW(world.getPoints(soft, few), Error);
+}
+
+TEST_F(OnTheGround, TheGroundCarriesItsWeight) {
+  run(world, 60);
+  float force = 0;
+  for (const Contact& contact : world.contacts())
+    for (int i = 0; i < contact.pointCount; ++i) force += contact.points[static_cast<size_t>(i)].normalForce;
+  EXPECT_NEAR(force, 125 * 9.81, 0.01 * 125 * 9.81);
+  for (const BodyId p : world.particles(soft)) EXPECT_GT(world.pose(p).position.y, 0.01 - 0.002);
+}
+
+TEST_F(OnTheGround, FallsAsleepAndWakesAsAWhole) {
+  run(world, 240);
+  const std::vector<BodyId> particles = world.particles(soft);
+  for (const BodyId p : particles) EXPECT_FALSE(world.isAwake(p));
+  world.addImpulse(particles[30], {0, 5, 0});
+  for (const BodyId p : particles) EXPECT_TRUE(world.isAwake(p));
+  run(world, 1);
+  EXPECT_EQ(world.report().bodies, 64u);
+}
+
+TEST_F(OnTheGround, IsGoneWithItsParticles) {
+  const std::vector<BodyId> particles = world.particles(soft);
+  run(world, 30);
+  world.destroy(soft);
+  EXPECT_FALSE(world.isAlive(soft));
+  EXPECT_EQ(world.bodyCount(), 1u);
+  for (const BodyId p : particles) EXPECT_FALSE(world.isAlive(p));
+  EXPECT_THROW(world.volume(soft), Error);
+  run(world, 3);
+  EXPECT_EQ(world.report().bodies, 0u);
+  const SoftId next = world.create(SoftDef{.mesh = cube(), .pose = {{0, 1, 0}, {}}});
+  EXPECT_NE(next, soft);
+  run(world, 3);
+}
+
+TEST_F(OnTheGround, AParticleCannotGoAlone) {
+  const BodyId particle = world.particles(soft)[0];
+  try {
+    world.destroy(particle);
+    FAIL() << "destroyed";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("particle of a soft body"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(world.isAlive(particle));
+}
+
+TEST(Soft, AttachedToABodyBothFeelIt) {
+  World world(WorldDef{.gravity = {}});
+  const SoftId soft = world.create(SoftDef{.mesh = cube()});
+  const BodyId corner = world.particles(soft)[0];
+  const Vec3d at = world.pose(corner).position;
+  const BodyId ball = world.create(
+      BodyDef{.position = at, .linearVelocity = {0, 0, 3}, .shape = Sphere{0.05f}, .mass = 10, .filter = {.mask = 0}});
+  const JointId joint = world.create(BallJoint{.bodyA = corner, .bodyB = ball});
+  for (int i = 0; i < 120; ++i) {
+    world.step(kDt);
+    EXPECT_LT(world.gap(joint), 1e-3);
+  }
+  EXPECT_NEAR(world.momentum().z, 30, 0.03);
+  EXPECT_LT(world.velocity(ball).linear.z, 2.5f);
+}
+
+TEST(Soft, AnAttachmentBreaks) {
+  World world;
+  const SoftId soft = world.create(SoftDef{.mesh = cube(), .pose = {{0, 5, 0}, {}}});
+  const BodyId corner = world.particles(soft)[0];
+  const JointId joint = world.create(BallJoint{.bodyA = corner, .frameB = {world.pose(corner).position, {}}});
+  world.setBreakLimits(joint, {.force = 500});
+  run(world, 120);
+  EXPECT_FALSE(world.isEnabled(joint));
+  EXPECT_LT(world.pose(corner).position.y, 0);
+}
+
+std::string complaint(SoftDef def) {
+  World world;
+  if (!def.mesh) def.mesh = cube();
+  try {
+    world.create(def);
+  } catch (const Error& error) {
+    EXPECT_EQ(world.bodyCount(), 0u);
+    EXPECT_TRUE(world.softBodies().empty());
+    return error.what();
+  }
+  return "accepted";
+}
+
+void expectRefused(const SoftDef& def, const char* part) {
+  const std::string said = complaint(def);
+  EXPECT_NE(said.find(part), std::string::npos) << said;
+}
+
+TEST(Soft, WhatIsNoneIsRefusedByName) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(World().create(SoftDef{}), Error);
+  for (const float bad : {0.0f, -1.0f, nan}) {
+    expectRefused({.material = {.youngsModulus = bad}}, "youngsModulus");
+    expectRefused({.material = {.density = bad}}, "density");
+    expectRefused({.radius = bad}, "radius");
+  }
+  for (const float bad : {0.5f, 0.7f, -1.0f, nan}) expectRefused({.material = {.poissonRatio = bad}}, "poissonRatio");
+  expectRefused({.pose = {{0, double{nan}, 0}, {}}}, "pose");
+  expectRefused({.pose = {{}, {0, 0, 0, 0}}}, "pose");
+  expectRefused({.velocity = {{nan, 0, 0}, {}}}, "velocity");
+  expectRefused({.surface = {.friction = -1}}, "surface");
+}
+
+/// Two cubes, one of them tied to a box, on the ground.
+World twoCubes(const WorldDef& def) {
+  World world(def);
+  world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
+  const BodyId box = world.create(BodyDef{.position = {0, 0.9, 0}, .shape = Box{0.2f, 0.2f, 0.2f}, .mass = 20});
+  for (const double x : {0.0, 1.0}) {
+    const SoftId soft = world.create(SoftDef{.mesh = cube(), .pose = {{x, 0.3, 0}, {}}, .velocity = {{1, 0, 0}, {}}});
+    const BodyId top = world.particles(soft).back();
+    if (x == 0)
+      world.create(
+          BallJoint{.bodyA = top, .bodyB = box, .frameB = {world.pose(top).position - world.pose(box).position, {}}});
+  }
+  return world;
+}
+
+TEST(Soft, TheSameBitsForAllWidthsAndWorkers) {
+  std::set<uint64_t> hashes;
+  for (const int width : {1, 4, 8, 16})
+    for (const int workers : {1, 3}) {
+      World world = twoCubes({.workers = workers, .simdWidth = width});
+      run(world, 60);
+      hashes.insert(world.hash());
+    }
+  EXPECT_EQ(hashes.size(), 1u);
+}
+
+TEST(Soft, ASnapshotGoesOnAsIfNothingHadBeen) {
+  World world = twoCubes({}), other = twoCubes({});
+  run(world, 20);
+  std::vector<std::byte> bytes;
+  world.save(bytes);
+  run(world, 30);
+  const uint64_t hash = world.hash();
+  for (World* again : {&world, &other}) {
+    again->restore(bytes);
+    EXPECT_EQ(again->softBodies().size(), 2u);
+    run(*again, 30);
+    EXPECT_EQ(again->hash(), hash);
+  }
+}
+
+TEST(Soft, BlockSweepsOfOthersDoNotMind) {
+  World world = twoCubes({.primalSolver = PrimalSolver::BlockSweep});
+  run(world, 120);
+  for (const SoftId soft : world.softBodies()) EXPECT_NEAR(world.volume(soft), 0.125, 0.01);
+}
+
+}  // namespace
+}  // namespace avbd

@@ -1,0 +1,210 @@
+// Elastic elements: the gradient is that of the energy, the Hessian that of the gradient where it may be, and never
+// negative; no turn costs anything; every width gives the bits of float.
+#include "avbd/rows/tet_elastic.h"
+
+#include <avbd/types.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "lane/tile.h"
+
+namespace avbd::rows {
+namespace {
+
+using Points = std::array<Vec3d, 4>;
+using V = V3<float>;
+
+V toFloat3(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+Vec3d crossOf(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+
+const Points kRest = {Vec3d{0, 0, 0}, {1, 0.1, 0}, {0.2, 1.1, -0.1}, {0.1, 0.3, 0.9}};
+
+struct Element {
+  float mu = 3, lambda = 11;
+  Vec3d g[4];
+
+  Element() {
+    const Vec3d b = kRest[1] - kRest[0], c = kRest[2] - kRest[0], d = kRest[3] - kRest[0];
+    const double six = dot(b, crossOf(c, d));
+    g[1] = crossOf(c, d) * (1 / six), g[2] = crossOf(d, b) * (1 / six), g[3] = crossOf(b, c) * (1 / six);
+    g[0] = (g[1] + g[2] + g[3]) * -1.0;
+  }
+  TetElastic<float> rows(const Points& x) const {
+    return {toFloat3(x[1] - x[0]),
+            toFloat3(x[2] - x[0]),
+            toFloat3(x[3] - x[0]),
+            toFloat3(g[1]),
+            toFloat3(g[2]),
+            toFloat3(g[3]),
+            mu,
+            lambda};
+  }
+  /// By the formula, in double.
+  double energy(const Points& x) const {
+    Vec3d f[3];
+    for (size_t i = 0; i < 4; ++i)
+      f[0] = f[0] + x[i] * g[i].x, f[1] = f[1] + x[i] * g[i].y, f[2] = f[2] + x[i] * g[i].z;
+    const double m = double{mu}, l = double{lambda}, J = dot(f[0], crossOf(f[1], f[2])), off = J - 1 - m / l;
+    return m / 2 * (dot(f[0], f[0]) + dot(f[1], f[1]) + dot(f[2], f[2]) - 3) + l / 2 * off * off;
+  }
+};
+
+std::mt19937 generator(5);
+Points moved(double size) {
+  std::uniform_real_distribution<double> draw(-size, size);
+  Points x = kRest;
+  for (Vec3d& p : x) p = p + Vec3d{draw(generator), draw(generator), draw(generator)};
+  return x;
+}
+
+std::array<V, 4> gradientAt(const Element& e, const Points& x) {
+  const V none[4] = {};
+  V out[4];
+  const TetElastic<float> rows = e.rows(x);
+  rows.gradient(rows.deformation(none), out);
+  return {out[0], out[1], out[2], out[3]};
+}
+
+ElasticOp<float> opAt(const Element& e, const Points& x) {
+  const V none[4] = {};
+  const TetElastic<float> rows = e.rows(x);
+  return rows.op(rows.deformation(none));
+}
+
+double& axisOf(Vec3d& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
+float axisOf(const V& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
+
+TEST(TetElastic, GradientIsTheDerivativeOfTheEnergy) {
+  const Element e;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Points x = moved(0.4);
+    const auto gradient = gradientAt(e, x);
+    for (size_t i = 0; i < 4; ++i)
+      for (int k = 0; k < 3; ++k) {
+        Points up = x, down = x;
+        axisOf(up[i], k) += 1e-5, axisOf(down[i], k) -= 1e-5;
+        EXPECT_NEAR(double{axisOf(gradient[i], k)}, (e.energy(up) - e.energy(down)) / 2e-5, 2e-4);
+      }
+  }
+}
+
+TEST(TetElastic, AtRestNothingPulls) {
+  for (const V& g : gradientAt(Element(), kRest)) EXPECT_NEAR(double{length(g)}, 0, 1e-5);
+}
+
+TEST(TetElastic, ATurnCostsNothingAndItsHessianSaysSo) {
+  const Element e;
+  const Quat turn = Quat{0.5f, 0.5f, -0.5f, 0.5f};
+  Points x;
+  V spun[4], out[4];
+  for (size_t i = 0; i < 4; ++i) {
+    x[i] = rotate(turn, kRest[i]);
+    spun[i] = toFloat3(crossOf({0.4, -1, 0.8}, x[i]));
+  }
+  for (const V& g : gradientAt(e, x)) EXPECT_NEAR(double{length(g)}, 0, 2e-5);
+  multiply(opAt(e, x), spun, out);
+  for (const V& q : out) EXPECT_NEAR(double{length(q)}, 0, 2e-5);
+}
+
+/// Of x along p, by the difference of gradients.
+std::array<V, 4> slope(const Element& e, const Points& x, const V (&p)[4]) {
+  constexpr double kStep = 1e-3;
+  Points up = x, down = x;
+  for (size_t i = 0; i < 4; ++i) {
+    const Vec3d way{double{p[i].x}, double{p[i].y}, double{p[i].z}};
+    up[i] = up[i] + way * kStep, down[i] = down[i] - way * kStep;
+  }
+  const auto a = gradientAt(e, up), b = gradientAt(e, down);
+  std::array<V, 4> out;
+  for (size_t i = 0; i < 4; ++i) out[i] = (a[i] - b[i]) * static_cast<float>(0.5 / kStep);
+  return out;
+}
+
+void draw(V (&p)[4]) {
+  std::uniform_real_distribution<float> number(-1, 1);
+  for (V& v : p) v = {number(generator), number(generator), number(generator)};
+}
+
+TEST(TetElastic, HessianIsTheDerivativeOfTheGradientInAStretchedBar) {
+  // No stress sideways: the curvature of J is taken whole.
+  const Element e;
+  const double y = 1.15, volume = 1 + 3.0 * (y - 1) / (11 * y), side = std::sqrt(volume / y);
+  Points x = kRest;
+  for (Vec3d& p : x) p = {p.x * side, p.y * y, p.z * side};
+  for (const Points& at : {kRest, x}) {
+    V p[4], out[4];
+    draw(p);
+    multiply(opAt(e, at), p, out);
+    const auto expected = slope(e, at, p);
+    for (size_t i = 0; i < 4; ++i) EXPECT_NEAR(double{length(out[i] - expected[i])}, 0, 0.02);
+  }
+}
+
+TEST(TetElastic, HessianIsSymmetricAndNeverNegative) {
+  const Element e;
+  for (const double size : {0.1, 0.5, 2.0})
+    for (int trial = 0; trial < 200; ++trial) {
+      const ElasticOp<float> op = opAt(e, moved(size));
+      V p[4], r[4], hp[4], hr[4];
+      draw(p), draw(r);
+      multiply(op, p, hp), multiply(op, r, hr);
+      double pHr = 0, rHp = 0, pHp = 0, scale = 0;
+      for (size_t i = 0; i < 4; ++i) {
+        pHr += double{dot(p[i], hr[i])}, rHp += double{dot(r[i], hp[i])}, pHp += double{dot(p[i], hp[i])};
+        scale += double{length(p[i]) * length(hr[i])};
+      }
+      EXPECT_NEAR(pHr, rHp, 1e-5 * scale);
+      EXPECT_GE(pHp, -0.05 * scale) << "size " << size;
+    }
+}
+
+TEST(TetElastic, BlocksAreThoseOfTheHessian) {
+  const Element e;
+  const Points x = moved(0.3);
+  const V none[4] = {};
+  const TetElastic<float> rows = e.rows(x);
+  const auto state = rows.deformation(none);
+  for (size_t i = 0; i < 4; ++i) {
+    const Sym3<float> block = rows.block(state, toFloat3(e.g[i]));
+    for (int k = 0; k < 3; ++k) {
+      V p[4] = {}, out[4];
+      p[i] = {k == 0 ? 1.0f : 0, k == 1 ? 1.0f : 0, k == 2 ? 1.0f : 0};
+      multiply(opAt(e, x), p, out);
+      EXPECT_NEAR(double{length(out[i] - block * p[i])}, 0, 1e-4);
+    }
+  }
+}
+
+template <int N>
+void expectBitsOfFloat() {
+  const Element e;
+  lane::Tile<TetElastic> tile;
+  for (int l = 0; l < lane::kTile; ++l) tile.set(l, e.rows(moved(0.4)));
+  using R = lane::Real<N>;
+  for (int o = 0; o < lane::kTile; o += N) {
+    const TetElastic<R> wide = tile.template load<N>(o);
+    const V3<R> none[4] = {zeroV3<R>(), zeroV3<R>(), zeroV3<R>(), zeroV3<R>()};
+    const auto op = wide.op(wide.deformation(none));
+    lane::Tile<ElasticOp> ops;
+    ops.template store<N>(o, op);
+    for (int l = o; l < o + N; ++l) {
+      const TetElastic<float> one = tile.get(l);
+      const V zero[4] = {};
+      const ElasticOp<float> expected = one.op(one.deformation(zero)), got = ops.get(l);
+      EXPECT_EQ(std::memcmp(&expected, &got, sizeof(got)), 0) << N << " lanes, lane " << l;
+    }
+  }
+}
+
+TEST(TetElastic, EveryWidthGivesTheBitsOfFloat) {
+  expectBitsOfFloat<4>();
+  expectBitsOfFloat<8>();
+  expectBitsOfFloat<16>();
+}
+
+}  // namespace
+}  // namespace avbd::rows

@@ -1,0 +1,63 @@
+// Snapshots: soft bodies. What they are made of is shared, and where they are their particles say.
+#include <algorithm>
+
+#include "world/snapshot_parts.h"
+
+namespace avbd::snapshot {
+namespace {
+
+/// All members by name but mesh and bodies, which are coded below.
+template <class Codec, class Soft>
+void codeNumbers(Codec& codec, Soft& soft) {
+  auto& [mesh, material, radius, bodies, userData] = soft;
+  codec.put(material.youngsModulus), codec.put(material.poissonRatio), codec.put(material.density);
+  codec.put(radius), codec.put(userData);
+}
+
+/// Every particle is one of its soft body and of no other.
+void checkParticles(const WorldData& data) {
+  size_t left = 0;
+  data.bodyIds.forEach([&](uint32_t slot) { left += data.bodies[slot].soft != kNone; });
+  data.softIds.forEach([&](uint32_t slot) {
+    const SoftData& soft = data.softs[slot];
+    require(soft.bodies.size() == soft.mesh->points().size(), "a soft body's points");
+    std::vector<uint32_t> sorted = soft.bodies;
+    std::sort(sorted.begin(), sorted.end());
+    require(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end(), "a particle that stands for two points");
+    for (const uint32_t body : soft.bodies) {
+      require(data.bodyIds.isAliveSlot(body) && data.bodies[body].soft == slot && left > 0, "a soft body's particle");
+      require(data.bodies[body].type == BodyType::Dynamic, "a particle that does not move");
+      require(data.bodies[body].asleep == data.bodies[soft.bodies[0]].asleep, "a particle that sleeps alone");
+      --left;
+    }
+  });
+  require(left == 0, "a particle of no soft body");
+}
+
+}  // namespace
+
+void codeSofts(Writer& out, const WorldData& data, SharedTable& table) {
+  data.softIds.forEach([&](uint32_t slot) {
+    const SoftData& soft = data.softs[slot];
+    out.put(table.number(soft.mesh));
+    codeNumbers(out, soft);
+    list(out, soft.bodies);
+  });
+}
+
+void codeSofts(Reader& in, WorldData& data, const KnownThings& things) {
+  require(data.softIds.count() <= in.left(), "more soft bodies than bytes");
+  data.softs.assign(data.softIds.slotCount(), {});
+  data.softIds.forEach([&](uint32_t slot) {
+    SoftData& soft = data.softs[slot];
+    soft.mesh =
+        std::get<std::shared_ptr<const TetMeshData>>(things.thing(in.take<uint32_t>(), SharedTable::Kind::TetMesh));
+    codeNumbers(in, soft);
+    require(soft.material.youngsModulus > 0 && soft.material.poissonRatio < 0.5f && soft.material.poissonRatio > -1,
+            "a soft body's material");
+    list(in, soft.bodies);
+  });
+  checkParticles(data);
+}
+
+}  // namespace avbd::snapshot
