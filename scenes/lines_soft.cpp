@@ -241,12 +241,101 @@ std::vector<Figure> inverted(const Settings& settings) {
                  0.01, "", "scrambled")};
 }
 
+/// Points of one body within tetrahedra of another.
+int pointsInside(const World& world, SoftId of, SoftId in) {
+  const auto mesh = world.mesh(in);
+  std::vector<Vec3d> points(world.mesh(of)->points().size()), corners(mesh->points().size());
+  world.getPoints(of, points), world.getPoints(in, corners);
+  const auto side = [](Vec3d a, Vec3d b, Vec3d c, Vec3d p) {
+    const Vec3d u = b - a, v = c - a;
+    return dot(Vec3d{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x}, p - a);
+  };
+  int count = 0;
+  for (const Vec3d& p : points)
+    for (const auto& t : mesh->tets()) {
+      const Vec3d a = corners[t[0]], b = corners[t[1]], c = corners[t[2]], d = corners[t[3]];
+      if (side(a, b, c, p) > 0 && side(a, c, d, p) > 0 && side(a, d, b, p) > 0 && side(b, d, c, p) > 0) {
+        ++count;
+        break;
+      }
+    }
+  return count;
+}
+
+double weightOnGround(const World& world, BodyId ground) {
+  double force = 0;
+  for (const Contact& contact : world.contacts())
+    if (contact.bodyA == ground || contact.bodyB == ground)
+      for (int i = 0; i < contact.pointCount; ++i) force += double{contact.points[static_cast<size_t>(i)].normalForce};
+  return force;
+}
+
+/// Something soft stands on something, and all of it on the ground.
+struct Stack {
+  Build build;
+  BodyId ground;
+  std::vector<SoftId> softs;
+  double mass = 0;
+
+  Stack(const Settings& settings) : build("stack_soft", settings), ground(build.ground()) {}
+  void soft(Vec3 half, std::array<int, 3> cells, double y, SoftMaterial material) {
+    softs.push_back(build.world().create(SoftDef{
+        .mesh = makeTetBox(half, cells[0], cells[1], cells[2]), .pose = {{0, y, 0}, {}}, .material = material}));
+    for (const BodyId p : build.world().particles(softs.back())) mass += double{build.world().mass(p)};
+  }
+  void rigid(Box half, double y, float kilograms) {
+    build.box("box", half, {0, y, 0}, kilograms);
+    mass += double{kilograms};
+  }
+  std::vector<Figure> settle(const char* what) {
+    World& world = build.world();
+    int inside = 0;
+    double weight = 0;
+    for (int i = 0; i < 360; ++i) {
+      world.step(1.0f / 60);
+      for (const SoftId a : softs)
+        for (const SoftId b : softs)
+          if (a != b && i % 4 == 0) inside += pointsInside(world, a, b);
+      if (i == 60) weight = weightOnGround(world, ground);
+    }
+    double deepest = 0, farthest = 0;
+    for (const SoftId id : softs)
+      for (const BodyId p : world.particles(id)) {
+        deepest = std::max(deepest, double{world.radius(id)} - world.pose(p).position.y);
+        farthest = std::max(farthest, std::hypot(world.pose(p).position.x, world.pose(p).position.z));
+      }
+    return {atMost("points_inside", inside, 0, "", what), atMost("depth", deepest, 0.002, "m", what),
+            atMost("aside", farthest, 0.6, "m", what),
+            within("weight", weight / (mass * double{kGravity}), 1, 0.01, "of all", what)};
+  }
+};
+
+std::vector<Figure> stackSoft(const Settings& settings) {
+  const SoftMaterial rubber{.youngsModulus = 1e6f, .density = 400};
+  const Vec3 half{0.25f, 0.25f, 0.25f};
+  std::vector<Figure> figures;
+  const auto add = [&](std::vector<Figure> more) { figures.insert(figures.end(), more.begin(), more.end()); };
+  Stack five(settings);
+  for (int i = 0; i < 5; ++i) five.soft(half, {4, 4, 4}, 0.262 + 0.522 * i, rubber);
+  add(five.settle("five soft cubes"));
+  Stack loaded(settings);
+  loaded.soft({0.3f, 0.3f, 0.3f}, {5, 5, 5}, 0.312, rubber);
+  loaded.rigid({0.3f, 0.3f, 0.3f}, 0.935, 432);
+  add(loaded.settle("432 kg on a soft cube"));
+  Stack tower(settings);
+  for (int i = 0; i < 3; ++i) tower.rigid({0.3f, 0.2f, 0.3f}, 0.2 + 0.4 * i, 100);
+  tower.soft(half, {4, 4, 4}, 1.462, rubber);
+  add(tower.settle("a soft cube on a tower"));
+  return figures;
+}
+
 }  // namespace
 
 std::vector<Line> softLines() {
-  return {{"S", "free_fall", freeFall, ""},    {"S", "soft_spin", spin, ""},  {"S", "bar", bar, ""},
-          {"S", "cantilever", cantilever, ""}, {"S", "poisson", poisson, ""}, {"S", "independence", independence, ""},
-          {"S", "inverted", inverted, ""}};
+  return {
+      {"S", "free_fall", freeFall, ""},    {"S", "soft_spin", spin, ""},      {"S", "bar", bar, ""},
+      {"S", "cantilever", cantilever, ""}, {"S", "poisson", poisson, ""},     {"S", "independence", independence, ""},
+      {"S", "inverted", inverted, ""},     {"S", "stack_soft", stackSoft, ""}};
 }
 
 }  // namespace avbd::scenes

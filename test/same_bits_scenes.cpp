@@ -162,13 +162,13 @@ void addWaves(World& world, Draws& draws) {
 }
 
 // Every convex shape on a height field and a mesh side by side.
-// Two soft cubes that fall on the ground, a box hanging on a corner of one of them.
+// Two soft cubes that fall on the ground and on each other, a box hanging on a corner of one of them.
 World soft(const WorldDef& def) {
   World world = begin(def);
   const auto cube = makeTetBox({0.3f, 0.3f, 0.3f}, 3, 3, 3);
   for (int i = 0; i < 2; ++i) {
     const SoftId id = world.create(SoftDef{.mesh = cube,
-                                           .pose = {{1.0 * i, 0.5, 0}, {0.8f, 0, 0.6f, 0}},
+                                           .pose = {{0.2 * i, 0.5 + 0.85 * i, 0}, {0.8f, 0, 0.6f, 0}},
                                            .velocity = {{1, 0, 0}, {0, 1, 2}},
                                            .material = {.youngsModulus = i == 0 ? 2e4f : 5e5f}});
     if (i > 0) continue;

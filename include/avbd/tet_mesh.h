@@ -11,6 +11,8 @@
 
 namespace avbd {
 
+class FaceTree;  // src/geom
+
 struct TetMeshDef {
   std::span<const Vec3> points{};                   ///< [m], at rest
   std::span<const std::array<uint32_t, 4>> tets{};  ///< indices of points
@@ -29,12 +31,16 @@ struct TetMeshReport {
 /// are left out, so that an index here may be another than in the definition (sourcePoint).
 class TetMeshData {
  public:
+  TetMeshData();
+  ~TetMeshData();
   const TetMeshReport& report() const { return report_; }
   std::span<const Vec3> points() const { return points_; }                       ///< [m], at rest
   std::span<const std::array<uint32_t, 4>> tets() const { return tets_; }        ///< of positive volume
   std::span<const std::array<uint32_t, 3>> surface() const { return surface_; }  ///< anticlockwise seen from outside
   uint32_t sourcePoint(uint32_t point) const { return sourcePoints_[point]; }    ///< its index in TetMeshDef::points
-  double volume() const { return volume_; }                                      ///< [m^3]
+  float faceSize() const { return faceSize_; }  ///< [m] mean length of the surface's edges
+  const FaceTree& faceTree() const { return *faceTree_; }
+  double volume() const { return volume_; }       ///< [m^3]
   uint64_t contentHash() const { return hash_; }  ///< of points and tetrahedra: equal meshes have equal hashes
 
  private:
@@ -44,6 +50,8 @@ class TetMeshData {
   std::vector<std::array<uint32_t, 4>> tets_;
   std::vector<std::array<uint32_t, 3>> surface_;
   std::vector<uint32_t> sourcePoints_;
+  std::unique_ptr<const FaceTree> faceTree_;
+  float faceSize_ = 0;
   double volume_ = 0;
   uint64_t hash_ = 0;
 };

@@ -8,6 +8,7 @@
 
 #include "base/format.h"
 #include "base/hash.h"
+#include "geom/face_tree.h"
 
 namespace avbd {
 namespace {
@@ -103,6 +104,13 @@ std::vector<std::array<uint32_t, 3>> surfaceOf(const std::vector<Tet>& tets) {
   return surface;
 }
 
+float meanEdge(std::span<const Vec3> points, std::span<const std::array<uint32_t, 3>> faces) {
+  double sum = 0;
+  for (const auto& face : faces)
+    for (size_t i = 0; i < 3; ++i) sum += double{length(points[face[i]] - points[face[(i + 1) % 3]])};
+  return static_cast<float>(sum / (3 * static_cast<double>(faces.size())));
+}
+
 std::vector<Tet> repaired(const TetMeshDef& def, TetMeshReport& report) {
   std::vector<Tet> kept;
   for (Tet t : def.tets) {
@@ -130,6 +138,9 @@ std::vector<Tet> repaired(const TetMeshDef& def, TetMeshReport& report) {
 
 }  // namespace
 
+TetMeshData::TetMeshData() = default;
+TetMeshData::~TetMeshData() = default;
+
 std::shared_ptr<const TetMeshData> makeTetMesh(const TetMeshDef& def) {
   check(def);
   const auto mesh = std::make_shared<TetMeshData>();
@@ -149,6 +160,8 @@ std::shared_ptr<const TetMeshData> makeTetMesh(const TetMeshDef& def) {
   for (Tet& t : mesh->tets_)
     for (uint32_t& p : t) p = place[p];
   mesh->surface_ = surfaceOf(mesh->tets_);
+  mesh->faceTree_ = std::make_unique<const FaceTree>(mesh->points_, mesh->surface_);
+  mesh->faceSize_ = meanEdge(mesh->points_, mesh->surface_);
   for (const Tet& t : mesh->tets_) mesh->volume_ += sixVolumes(mesh->points_, t) / 6;
   Hash64 hash;
   hash.values(mesh->points_);

@@ -17,6 +17,7 @@
 #include <span>
 
 #include "avbd/rows/family.h"
+#include "avbd/rows/node_contact.h"
 #include "avbd/rows/tet_elastic.h"
 #include "lane/tile.h"
 #include "solve/free_body.h"
@@ -87,6 +88,14 @@ struct ElasticTiles {
   uint32_t tiles = 0;
 };
 
+/// Contacts of points with faces of soft bodies.
+struct NodeContactTiles {
+  Tile<rows::NodeContact>* tile = nullptr;
+  const uint32_t* node[4] = {};
+  Tile<rows::NodeContactOp>* op = nullptr;
+  uint32_t tiles = 0;
+};
+
 struct ScalarJoint;
 
 /// Joints whose rows are evaluated one at a time (scalar_joint.h), with their lanes in the products with H.
@@ -148,6 +157,7 @@ struct BatchView {
   std::span<const SweptContact> swept;  ///< contacts whose rows follow the iterations (swept_contact.h)
   TetTiles tets;
   ElasticTiles elastic;
+  NodeContactTiles nodeContacts;
   ScalarJoints scalar;
   LinkedJoints linked;
   Tile<PairOp>* op = nullptr;  ///< contacts, then balls, then fixed, then scalar joints

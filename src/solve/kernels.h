@@ -76,6 +76,14 @@ AVBD_INLINE void prepareFull(FullContact<R>& c, const InverseMass& a, const Inve
   c.kRolling = floorStiffness(c.rolling, max(along(c.contact.t1), along(c.contact.t2)), factor);
 }
 
+}  // namespace
+}  // namespace avbd::AVBD_LANES_NAMESPACE
+
+#include "solve/node_kernels.h"
+
+namespace avbd::AVBD_LANES_NAMESPACE {
+namespace {
+
 void prepareContacts(const BatchView& v, const SolveSettings& s, Slice tiles) {
   const float factor = s.floorFactor / (s.h * s.h);
   forLanes(tiles, [&](uint32_t t, int o) {
@@ -95,6 +103,7 @@ void prepareOthers(const BatchView& v, const SolveSettings& s) {
     prepareFull(c, gatherInverseMass(v.invMass, v.full.a + at), gatherInverseMass(v.invMass, v.full.b + at), factor);
     v.full.tile[t].store<N>(o, c);
   });
+  prepareNodeContacts(v, factor);
 }
 
 // ---- Rows ------------------------------------------------------------------------------------------------------
@@ -172,23 +181,6 @@ void dualPairs(const BatchView& v, const PairTiles<Family>& tiles, Slice range, 
   });
 }
 
-using NodeRows = const uint32_t* const (&)[4];  ///< body rows of the four nodes, by lane
-
-AVBD_INLINE void gatherNodes(NodeRows rows, const float* array, uint32_t at, V3<R> (&node)[4]) {
-  for (int i = 0; i < 4; ++i) node[i] = gatherTwist<N>(array, rows[i] + at).lin;
-}
-
-/// Adds K values a node to rows of an array, lane after lane and node after node.
-template <int K>
-AVBD_INLINE void scatterNodes(float* array, int stride, NodeRows rows, uint32_t at, const R (&value)[4][K]) {
-  alignas(64) float lanes[4][K][N];
-  for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < K; ++k) lane::store(lanes[i][k], value[i][k]);
-  for (uint32_t l = 0; l < N; ++l)
-    for (int i = 0; i < 4; ++i)
-      for (int k = 0; k < K; ++k) array[size_t(rows[i][at + l]) * static_cast<size_t>(stride) + k] += lanes[i][k][l];
-}
-
 void stampTets(const BatchView& v, bool dual) {
   forLanes({0, v.tets.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
@@ -229,34 +221,6 @@ void dualTets(const BatchView& v) {
   });
 }
 
-AVBD_INLINE void scatterVectors(float* array, NodeRows rows, uint32_t at, const V3<R> (&value)[4]) {
-  R out[4][3];
-  for (int i = 0; i < 4; ++i) out[i][0] = value[i].x, out[i][1] = value[i].y, out[i][2] = value[i].z;
-  scatterNodes(array, 8, rows, at, out);
-}
-
-void stampElastic(const BatchView& v) {
-  const ElasticTiles& all = v.elastic;
-  forLanes({0, all.tiles}, [&](uint32_t t, int o) {
-    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
-    const TetElastic<R> tet = all.tile[t].load<N>(o);
-    V3<R> d[4], gradient[4];
-    gatherNodes(all.node, v.d, at, d);
-    const Deformation<R> s = tet.deformation(d);
-    tet.gradient(s, gradient);
-    all.op[t].store<N>(o, tet.op(s));
-    scatterVectors(v.gradient, all.node, at, gradient);
-    const V3<R> g[4] = {-(tet.gb + tet.gc + tet.gd), tet.gb, tet.gc, tet.gd};
-    R block[4][6];
-    for (int i = 0; i < 4; ++i) {
-      const Sym3<R> m = tet.block(s, g[i]);
-      const R entries[6] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
-      for (int k = 0; k < 6; ++k) block[i][k] = entries[k];
-    }
-    scatterNodes(v.hessian, kHessianRow, all.node, at, block);
-  });
-}
-
 void stampContacts(const BatchView& v, const SolveSettings& s, bool dual, Slice tiles) {
   stampPairs<Contact, false>(v, v.contacts, tiles, v.op, s.contactLeak, dual);
 }
@@ -269,6 +233,7 @@ void stampOthers(const BatchView& v, const SolveSettings& s, bool dual) {
   stampFull(v, s.contactLeak, dual);
   stampTets(v, dual);
   stampElastic(v);
+  stampNodeContacts(v, s.contactLeak, dual);
 }
 
 void updateContacts(const BatchView& v, const SolveSettings& s, Slice tiles) {
@@ -280,6 +245,7 @@ void updateOthers(const BatchView& v, const SolveSettings& s) {
   dualPairs(v, v.fixed, {0, v.fixed.tiles}, 1);
   dualPairs(v, v.full, {0, v.full.tiles}, s.contactLeak);
   dualTets(v);
+  dualNodeContacts(v, s.contactLeak);
 }
 
 // ---- Products with H -------------------------------------------------------------------------------------------
@@ -327,17 +293,6 @@ void multiplyTets(const BatchView& v) {
   });
 }
 
-void multiplyElastic(const BatchView& v) {
-  const ElasticTiles& all = v.elastic;
-  forLanes({0, all.tiles}, [&](uint32_t t, int o) {
-    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
-    V3<R> p[4], out[4];
-    gatherNodes(all.node, v.p, at, p);
-    multiply(all.op[t].load<N>(o), p, out);
-    scatterVectors(v.q, all.node, at, out);
-  });
-}
-
 void multiplyContacts(const BatchView& v, Slice tiles) { multiplyPairs(v, v.contacts.a, v.contacts.b, v.op, tiles); }
 
 void multiplyOthers(const BatchView& v) {
@@ -350,6 +305,7 @@ void multiplyOthers(const BatchView& v) {
   multiplyFull(v);
   multiplyTets(v);
   multiplyElastic(v);
+  multiplyNodeContacts(v);
 }
 
 }  // namespace

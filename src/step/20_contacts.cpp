@@ -4,6 +4,7 @@
 #include "collide/collide.h"
 #include "step/contacts.h"
 #include "step/sleeping.h"
+#include "step/soft_touches.h"
 #include "world/pairs.h"
 
 namespace avbd {
@@ -144,6 +145,16 @@ void wakeMet(WorldData& world, StepData& step) {
   addOverflow(world, step);
 }
 
+/// What a touch wakes touches more.
+void meetSoft(WorldData& world, StepData& step) {
+  size_t woken;
+  do {
+    woken = step.wokenIslands.size();
+    findSoftTouches(world, step);
+    wakeMet(world, step);
+  } while (step.wokenIslands.size() > woken && world.softIds.count() > 0);
+}
+
 }  // namespace
 
 void renewContacts(WorldData& world, StepData& step) {
@@ -165,7 +176,7 @@ void findContacts(WorldData& world, StepData& step) {
   findManifolds(world, step);
   findRest(world, step, 0, world.pairs.size());
   addOverflow(world, step);
-  wakeMet(world, step);
+  meetSoft(world, step);
   if (world.contactHook) askHook(world, step);
 }
 

@@ -76,6 +76,9 @@ void joinBodies(const WorldData& world, StepData& step) {
     if (isAsleep(world, soft)) return;
     for (const uint32_t body : soft.bodies) join(step.parent, soft.bodies[0], body);
   });
+  for (const StepData::FoundTouch& found : step.softTouches)
+    if (found.awake)
+      join(step.parent, world.softs[found.touch.pointSoft].bodies[0], world.softs[found.touch.faceSoft].bodies[0]);
 }
 
 /// Turns the islands' counts into the beginnings of consecutive ranges and clears them, to be counted again by who
@@ -127,6 +130,20 @@ void listSofts(const WorldData& world, StepData& step) {
     Island& island = step.islands[step.islandOf[world.softs[slot].bodies[0]]];
     step.islandSofts[island.softBegin + island.softCount++] = slot;
   });
+}
+
+void listTouches(const WorldData& world, StepData& step) {
+  const auto island = [&](const StepData::FoundTouch& found) -> Island& {
+    return step.islands[step.islandOf[world.softs[found.touch.faceSoft].bodies[0]]];
+  };
+  for (const StepData::FoundTouch& found : step.softTouches)
+    if (found.awake) ++island(found).touchCount;
+  step.islandTouches.resize(layOut(step.islands, &Island::touchBegin, &Island::touchCount));
+  for (uint32_t i = 0; i < step.softTouches.size(); ++i) {
+    if (!step.softTouches[i].awake) continue;
+    Island& of = island(step.softTouches[i]);
+    step.islandTouches[of.touchBegin + of.touchCount++] = i;
+  }
 }
 
 uint32_t islandOfJoint(const WorldData& world, const StepData& step, uint32_t slot) {
@@ -207,6 +224,7 @@ void findIslands(WorldData& world, StepData& step) {
   noteSwept(world, step);
   listJoints(world, step);
   listSofts(world, step);
+  listTouches(world, step);
   world.report.bodies = static_cast<uint32_t>(step.order.size());
   world.report.islands = static_cast<uint32_t>(step.islands.size());
   world.report.joints = static_cast<uint32_t>(step.islandJoints.size());

@@ -1,5 +1,6 @@
 // Rows: lays out the batches and fills masses, constants and remembered multipliers.
 #include "step/begin_rows.h"
+#include "step/soft_touches.h"
 #include "step/swept_contacts.h"
 
 namespace avbd {
@@ -17,6 +18,7 @@ void beginRows(WorldData& world, StepData& step) {
   listSwept(world, step);
   fillJoints(world, step);
   fillElements(world, step);
+  fillSoftTouches(world, step);
   for (size_t i = 0; i < step.batches.size(); ++i) step.backend->prepareOthers(step.view(i), step.solve);
 }
 

@@ -9,6 +9,7 @@
 #include "step/coordinate_rows.h"
 #include "step/free_motion.h"
 #include "step/publish_events.h"
+#include "step/soft_touches.h"
 
 namespace avbd {
 
@@ -266,6 +267,7 @@ void publish(WorldData& world, StepData& step) {
   checkForces(world, step);
   world.treeBehind = true;
   publishContacts(world, step);
+  publishSoftTouches(world, step);
   publishBodies(world, step);
   publishJoints(world, step);
   if (step.substep + 1 == world.def.substeps) publishEvents(world, step);

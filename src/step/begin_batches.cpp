@@ -16,6 +16,8 @@ void clearLanes(StepData& step) {
   step.contactPair.clear(), step.ballJoint.clear(), step.fixedJoint.clear(), step.tetJoint.clear();
   for (auto& lanes : step.elasticRow) lanes.clear();
   step.elements.clear();
+  for (auto& lanes : step.touchRow) lanes.clear();
+  step.touchLane.clear();
   step.fullPair.clear(), step.scalar.clear(), step.linked.clear();
   step.batches.clear(), step.ranges.clear(), step.lockedRows.clear(), step.locks.clear();
   step.chunks.clear(), step.seams.clear(), step.units.clear();
@@ -100,6 +102,25 @@ void addElements(const WorldData& world, StepData& step, BatchRange& batch) {
   batch.elasticTiles = static_cast<uint32_t>(step.elements.size()) / kTile - batch.elasticTile;
 }
 
+void addTouches(const WorldData& world, StepData& step, BatchRange& batch) {
+  batch.touchTile = static_cast<uint32_t>(step.touchLane.size()) / kTile;
+  for (uint32_t n = 0; n < batch.islandCount; ++n) {
+    const Island& island = step.islands[batch.islandBegin + n];
+    for (uint32_t i = 0; i < island.touchCount; ++i) {
+      const uint32_t index = step.islandTouches[island.touchBegin + i];
+      const SoftTouch& touch = step.softTouches[index].touch;
+      const SoftData& faces = world.softs[touch.faceSoft];
+      step.touchLane.push_back(index);
+      step.touchRow[0].push_back(step.rowOf[world.softs[touch.pointSoft].bodies[touch.point]]);
+      for (size_t k = 0; k < 3; ++k)
+        step.touchRow[k + 1].push_back(step.rowOf[faces.bodies[faces.mesh->surface()[touch.face][k]]]);
+    }
+  }
+  padLanes(step.touchLane, kNone);
+  for (auto& lanes : step.touchRow) padLanes(lanes, batch.bodies);
+  batch.touchTiles = static_cast<uint32_t>(step.touchLane.size()) / kTile - batch.touchTile;
+}
+
 /// Makes room for `count` that somebody else writes. What was in it is of the last step, and not copied.
 template <class T>
 void makeRoom(UnwrittenVector<T>& array, size_t count) {
@@ -143,6 +164,7 @@ void resizeTiles(StepData& step) {
   makeRoom(step.contacts, contacts), makeRoom(step.balls, balls), makeRoom(step.fixed, fixed);
   makeRoom(step.tets, tets), makeRoom(step.full, full);
   const size_t elements = step.elements.size() / kTile;
+  makeRoom(step.touchTiles, step.touchLane.size() / kTile), makeRoom(step.touchOp, step.touchLane.size() / kTile);
   makeRoom(step.elastic, elements), makeRoom(step.elasticOp, elements);
   makeRoom(step.op, contacts + balls + fixed + scalars), makeRoom(step.tetOp, tets), makeRoom(step.fullOp, full);
 }
@@ -197,6 +219,7 @@ void layOutBatches(const WorldData& world, StepData& step) {
     addFull(world, step, batch);
     addJoints(world, step, batch);
     addElements(world, step, batch);
+    addTouches(world, step, batch);
     batch.rows = roundUp(batch.rows);
     step.chunks.back().rows.end = batch.chunkCount > 1 ? roundUp(batch.bodies) : batch.rows;
     rows += batch.rows;
@@ -246,6 +269,10 @@ BatchView StepData::view(size_t index) {
   v.elastic.op = elasticOp.data() + b.elasticTile;
   v.elastic.tiles = b.elasticTiles;
   for (int i = 0; i < 4; ++i) v.elastic.node[i] = elasticRow[i].data() + b.elasticTile * kTile;
+  v.nodeContacts.tile = touchTiles.data() + b.touchTile;
+  v.nodeContacts.op = touchOp.data() + b.touchTile;
+  v.nodeContacts.tiles = b.touchTiles;
+  for (int i = 0; i < 4; ++i) v.nodeContacts.node[i] = touchRow[i].data() + b.touchTile * kTile;
   v.locked = lockedRows.data() + b.lockedBegin, v.locks = locks.data() + b.lockedBegin;
   v.lockedCount = b.lockedCount;
   return v;

@@ -3,6 +3,7 @@
 
 #include "step/begin_rows.h"
 #include "step/contact_impact.h"
+#include "step/contacts.h"
 #include "step/restitution.h"
 #include "step/settings.h"
 #include "step/swept_contacts.h"
@@ -14,14 +15,6 @@ namespace {
 /// Of contacts with what does not move: how many times as stiff as others under their load, and the most that it comes
 /// to, in island masses over h^2; of others `kMost`.
 constexpr float kGroundedLoad = 4, kGroundedMost = 200, kMost = 2;
-
-/// Penetration beyond the slop, of which only a share is corrected in one step and never faster than allowed; or the
-/// whole gap, so that nothing stops short of touching.
-float normalBias(const WorldData& world, const StepData& step, float separation) {
-  const float gap = separation + step.slop;
-  if (gap >= 0) return -gap;
-  return std::min((1 - step.alpha) * -gap, world.def.maxDepenetrationSpeed * step.h);
-}
 
 /// What an iteration of the batch leaves of its multipliers.
 float leakOf(const StepData& step, const BatchRange& batch) {

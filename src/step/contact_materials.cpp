@@ -28,26 +28,26 @@ float staticOf(const Material& m) { return m.staticFriction < 0 ? m.friction : m
 
 }  // namespace
 
-void combineMaterials(PairData& pair, const Material& a, const Material& b) {
+CombinedMaterial combined(const Material& a, const Material& b) {
   if (a.frictionPriority != b.frictionPriority) {
     const Material& m = a.frictionPriority > b.frictionPriority ? a : b;
-    pair.friction = m.friction;
-    pair.staticFriction = staticOf(m);
-    pair.restitution = m.restitution;
-    pair.torsionalFriction = m.torsionalFriction;
-    pair.rollingFriction = m.rollingFriction;
-    pair.isFull = pair.torsionalFriction > 0 || pair.rollingFriction > 0;
-    return;
+    return {staticOf(m), m.friction, m.restitution, m.torsionalFriction, m.rollingFriction};
   }
-  const Combine friction = std::max(a.frictionCombine, b.frictionCombine);
-  pair.friction = combined(a.friction, b.friction, friction);
-  pair.staticFriction = std::max(pair.friction, combined(staticOf(a), staticOf(b), friction));
-  pair.restitution = combined(a.restitution, b.restitution, std::max(a.restitutionCombine, b.restitutionCombine));
+  const Combine rule = std::max(a.frictionCombine, b.frictionCombine);
+  const float friction = combined(a.friction, b.friction, rule);
   // Of two zeros every rule makes zero.
   const bool turns = a.torsionalFriction > 0 || b.torsionalFriction > 0;
   const bool rolls = a.rollingFriction > 0 || b.rollingFriction > 0;
-  pair.torsionalFriction = turns ? combined(a.torsionalFriction, b.torsionalFriction, friction) : 0;
-  pair.rollingFriction = rolls ? combined(a.rollingFriction, b.rollingFriction, friction) : 0;
+  return {std::max(friction, combined(staticOf(a), staticOf(b), rule)), friction,
+          combined(a.restitution, b.restitution, std::max(a.restitutionCombine, b.restitutionCombine)),
+          turns ? combined(a.torsionalFriction, b.torsionalFriction, rule) : 0,
+          rolls ? combined(a.rollingFriction, b.rollingFriction, rule) : 0};
+}
+
+void combineMaterials(PairData& pair, const Material& a, const Material& b) {
+  const CombinedMaterial m = combined(a, b);
+  pair.staticFriction = m.staticFriction, pair.friction = m.friction, pair.restitution = m.restitution;
+  pair.torsionalFriction = m.torsionalFriction, pair.rollingFriction = m.rollingFriction;
   pair.isFull = pair.torsionalFriction > 0 || pair.rollingFriction > 0;
 }
 

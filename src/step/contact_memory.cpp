@@ -47,6 +47,12 @@ void rememberTurning(PairData& pair, const ContactBasis* known) {
 
 }  // namespace
 
+TouchBasis basisOf(Vec3 normal) {
+  rows::V3<float> t1, t2;
+  rows::orthonormalBasis(rows::V3<float>{normal.x, normal.y, normal.z}, t1, t2);
+  return {{t1.x, t1.y, t1.z}, {t2.x, t2.y, t2.z}};
+}
+
 void turnBasis(PairData& pair) {
   const rows::V3<float> n{pair.manifold.normal.x, pair.manifold.normal.y, pair.manifold.normal.z};
   rows::V3<float> t1, t2;

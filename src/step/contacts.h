@@ -57,6 +57,23 @@ void keepContact(const WorldData& world, PairData& pair, float margin, const Man
 
 /// Friction, restitution ... of a pair from the materials of its shapes (contact_materials.cpp).
 void combineMaterials(PairData& pair, const Material& a, const Material& b);
+struct CombinedMaterial {
+  float staticFriction, friction, restitution, torsionalFriction, rollingFriction;
+};
+CombinedMaterial combined(const Material& a, const Material& b);
+/// Penetration beyond the slop, of which only a share is corrected in one step and never faster than allowed; or the
+/// whole gap, so that nothing stops short of touching.
+inline float normalBias(const WorldData& world, const StepData& step, float separation) {
+  const float gap = separation + step.slop;
+  if (gap >= 0) return -gap;
+  return std::min((1 - step.alpha) * -gap, world.def.maxDepenetrationSpeed * step.h);
+}
+
+/// Across a normal, as the rows of a contact take it.
+struct TouchBasis {
+  Vec3 t1, t2;
+};
+TouchBasis basisOf(Vec3 normal);
 
 /// Patches of the pairs world.pairs[begin .. end), one run, which has a surface; those for which the run is too short
 /// go to step.overflow (contact_surface.cpp).

@@ -75,6 +75,11 @@ bool wakeTouched(WorldData& world, StepData& step) {
     wakeSide(world, step, found.bodyA);
     wakeSide(world, step, found.bodyB);
   }
+  for (const StepData::FoundTouch& found : step.softTouches) {
+    if (!found.awake) continue;
+    wakeSide(world, step, world.softs[found.touch.pointSoft].bodies[0]);
+    wakeSide(world, step, world.softs[found.touch.faceSoft].bodies[0]);
+  }
   if (step.wokenIslands.size() == before) return false;
   listWoken(world, step, before);
   return !step.wokenPairs.empty();
@@ -84,11 +89,13 @@ void rememberAwake(const WorldData& world, StepData& step) {
   step.bodiesBefore.count = step.jointsBefore.count = step.d6Before.count = step.linksBefore.count = 0;
   step.wokenIslands.clear();
   if (world.def.substeps == 1) return;
+  step.softTouchesBefore = world.softTouches;
   for (const uint32_t slot : world.sleep.awake) step.bodiesBefore.save(slot, world.bodies[slot]);
   for (const uint32_t slot : world.sleep.joints) saveJoint(world, step, slot);
 }
 
 void restoreAwake(WorldData& world, StepData& step) {
+  if (world.def.substeps > 1) world.softTouches = step.softTouchesBefore;
   step.bodiesBefore.restore(world.bodies);
   step.jointsBefore.restore(world.joints);
   step.d6Before.restore(world.d6);

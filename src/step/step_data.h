@@ -24,6 +24,7 @@ struct Island {
   uint32_t pairBegin = 0, pairCount = 0;    ///< in StepData::islandPairs
   uint32_t jointBegin = 0, jointCount = 0;  ///< in StepData::islandJoints
   uint32_t softBegin = 0, softCount = 0;    ///< in StepData::islandSofts
+  uint32_t touchBegin = 0, touchCount = 0;  ///< in StepData::islandTouches
   float mass = 0;                           ///< [kg]
   int iterations = 0;                       ///< outer ones
   float startTime = 1;                      ///< of the step: where its iterations start
@@ -41,6 +42,7 @@ struct BatchRange {
   uint32_t fixedTile = 0, fixedTiles = 0;
   uint32_t tetTile = 0, tetTiles = 0;
   uint32_t elasticTile = 0, elasticTiles = 0;
+  uint32_t touchTile = 0, touchTiles = 0;
   uint32_t fullTile = 0, fullTiles = 0;
   uint32_t scalarTile = 0, scalarTiles = 0, scalarCount = 0;
   uint32_t linkedBegin = 0, linkedCount = 0;
@@ -268,6 +270,23 @@ struct StepData {
   std::vector<ContactChange> changes;  ///< by pair
   std::vector<FoundContact> found;     ///< by index of the pair
 
+  /// Where a soft body is in this step.
+  struct SoftPlace {
+    Vec3d origin;
+    std::vector<Vec3> points;  ///< from there
+    std::vector<Aabb> bounds;  ///< of its tree of faces, likewise
+    float fastest = 0;         ///< [m/s] of its particles
+  };
+  std::vector<SoftPlace> softPlaces;  ///< by slot
+  struct FoundTouch {
+    SoftTouch touch;
+    Vec3 weights;  ///< of the face's corners, where the point is nearest
+    float separation = 0;
+    bool awake = false;
+  };
+  std::vector<FoundTouch> softTouches;       ///< ascending
+  std::vector<SoftTouch> softTouchesBefore;  ///< of the step before, where substeps may fail
+
   std::vector<uint32_t> wokenIslands;  ///< in SleepData::islands: what a contact woke in this step
   std::vector<uint32_t> wokenPairs;    ///< indices of the first entries of their pairs
 
@@ -285,9 +304,10 @@ struct StepData {
   std::vector<uint32_t> islandOf;     ///< by body slot
   std::vector<uint32_t> order;        ///< dynamic body slots, island by island
   std::vector<Island> islands;
-  std::vector<uint32_t> islandPairs;   ///< pairs with points, island by island, by key
-  std::vector<uint32_t> islandJoints;  ///< joint slots
-  std::vector<uint32_t> islandSofts;   ///< slots of soft bodies
+  std::vector<uint32_t> islandPairs;    ///< pairs with points, island by island, by key
+  std::vector<uint32_t> islandJoints;   ///< joint slots
+  std::vector<uint32_t> islandSofts;    ///< slots of soft bodies
+  std::vector<uint32_t> islandTouches;  ///< indices in softTouches
   std::vector<BatchRange> batches;
   std::vector<Chunk> chunks;
   std::vector<Seam> seams;
@@ -334,6 +354,10 @@ struct StepData {
   };
   std::vector<Element> elements;
   std::vector<uint32_t> elasticRow[4];
+  std::vector<uint32_t> touchLane;  ///< index in softTouches by lane, kNone
+  std::vector<uint32_t> touchRow[4];
+  UnwrittenVector<Tile<rows::NodeContact>> touchTiles;
+  UnwrittenVector<Tile<rows::NodeContactOp>> touchOp;
   UnwrittenVector<Tile<rows::TetElastic>> elastic;
   UnwrittenVector<Tile<rows::ElasticOp>> elasticOp;
   std::vector<uint32_t> fullPair;  ///< by lane, as contactPair

@@ -15,8 +15,8 @@ bool filtersMeet(const Filter& a, const Filter& b) {
 
 bool mayTouch(const WorldData& data, uint32_t shapeA, uint32_t shapeB) {
   const ShapeData &a = data.shapes[shapeA], &b = data.shapes[shapeB];
-  if (a.body == b.body || (isParticle(data, a.body) && data.bodies[a.body].soft == data.bodies[b.body].soft))
-    return false;
+  // Points of soft bodies touch faces of others (step/soft_touches.h).
+  if (a.body == b.body || (isParticle(data, a.body) && isParticle(data, b.body))) return false;
   const BodyType typeA = data.bodies[a.body].type, typeB = data.bodies[b.body].type;
   if (a.isTrigger || b.isTrigger) {
     if (a.isTrigger && b.isTrigger) return false;

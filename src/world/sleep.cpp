@@ -8,6 +8,7 @@
 #include "base/insert_sorted.h"
 #include "world/joints.h"
 #include "world/pairs.h"
+#include "world/soft.h"
 
 namespace avbd {
 namespace {
@@ -276,6 +277,15 @@ void putToSleep(WorldData& data, uint32_t body) {
       first = other;
     });
   }
+  const auto join = [&](uint32_t a, uint32_t b) { parent[root(a)] = root(b); };
+  data.softIds.forEach([&](uint32_t slot) {
+    const SoftData& soft = data.softs[slot];
+    if (!isAsleep(data, soft))
+      for (const uint32_t particle : soft.bodies) join(particle, soft.bodies[0]);
+  });
+  for (const SoftTouch& touch : data.softTouches)
+    if (!isAsleep(data, data.softs[touch.pointSoft]) && !isAsleep(data, data.softs[touch.faceSoft]))
+      join(data.softs[touch.pointSoft].bodies[0], data.softs[touch.faceSoft].bodies[0]);
   std::vector<uint32_t> bodies;
   for (const uint32_t slot : awake)
     if (isDynamic(data, slot) && root(slot) == root(body)) bodies.push_back(slot);

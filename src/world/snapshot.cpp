@@ -138,9 +138,9 @@ void checkHook(bool asked, const WorldData& restored, const WorldData& world) {
 /// state.
 void allMembers(WorldData& data) {
   [[maybe_unused]] auto& [def, bodyIds, shapeIds, jointIds, softIds, bodies, shapes, joints, d6, links, softs,
-                          couplings, jointForces, breakable, pairs, excludedPairs, tree, unpaired, forgotten,
-                          treeBehind, time, lastSubstep, report, means, events, lostTouches, contactHook, hookedShapes,
-                          sleep, wishesChanged] = data;
+                          softTouches, couplings, jointForces, breakable, pairs, excludedPairs, tree, unpaired,
+                          forgotten, treeBehind, time, lastSubstep, report, means, events, lostTouches, contactHook,
+                          hookedShapes, sleep, wishesChanged] = data;
 }
 
 void read(Reader& in, const WorldData& world, SharedTable& table, PairSides& sides, WorldData& out) {

@@ -145,6 +145,12 @@ auto snapshotParts(T& x) {
   return std::tie(shape, body, isTrigger, triggerIsA, reports, wasTouching, touched, unwanted, position, normal);
 }
 
+template <MaybeConst<SoftTouch> T>
+auto snapshotParts(T& x) {
+  auto& [pointSoft, faceSoft, point, face, normal, lambda, anchor, sticks, slides] = x;
+  return std::tie(pointSoft, faceSoft, point, face, normal, lambda, anchor, sticks, slides);
+}
+
 template <MaybeConst<TouchEvent> T>
 auto snapshotParts(T& x) {
   auto& [shapeA, shapeB, bodyA, bodyB, position, normal, impulse] = x;

@@ -34,6 +34,20 @@ void checkParticles(const WorldData& data) {
   require(left == 0, "a particle of no soft body");
 }
 
+void checkTouches(const WorldData& data) {
+  const SoftTouch* before = nullptr;
+  for (const SoftTouch& touch : data.softTouches) {
+    require(data.softIds.isAliveSlot(touch.pointSoft) && data.softIds.isAliveSlot(touch.faceSoft) &&
+                touch.pointSoft != touch.faceSoft,
+            "a touch of soft bodies that there are not");
+    require(touch.point < data.softs[touch.pointSoft].bodies.size() &&
+                touch.face < data.softs[touch.faceSoft].mesh->surface().size(),
+            "a touch of no point or face");
+    require(!before || *before < touch, "the order of touches");
+    before = &touch;
+  }
+}
+
 }  // namespace
 
 void codeSofts(Writer& out, const WorldData& data, SharedTable& table) {
@@ -43,6 +57,7 @@ void codeSofts(Writer& out, const WorldData& data, SharedTable& table) {
     codeNumbers(out, soft);
     list(out, soft.bodies);
   });
+  recordList(out, data.softTouches);
 }
 
 void codeSofts(Reader& in, WorldData& data, const KnownThings& things) {
@@ -58,6 +73,8 @@ void codeSofts(Reader& in, WorldData& data, const KnownThings& things) {
     list(in, soft.bodies);
   });
   checkParticles(data);
+  recordList(in, data.softTouches);
+  checkTouches(data);
 }
 
 }  // namespace avbd::snapshot

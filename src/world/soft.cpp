@@ -70,6 +70,8 @@ uint32_t addSoft(WorldData& data, const SoftDef& def) {
 void removeSoft(WorldData& data, uint32_t slot) {
   const std::vector<uint32_t> bodies = std::move(data.softs[slot].bodies);
   data.softs[slot] = {};
+  std::erase_if(data.softTouches,
+                [&](const SoftTouch& touch) { return touch.pointSoft == slot || touch.faceSoft == slot; });
   for (const uint32_t body : bodies) removeBody(data, body);
   data.softIds.destroy(data.softIds.id(slot));
 }

@@ -93,6 +93,12 @@ void add(Hash64& hash, const PairData& pair) {
   add(hash, pair.kept);
 }
 
+void add(Hash64& hash, const SoftTouch& touch) {
+  hash.value(touch.pointSoft), hash.value(touch.faceSoft), hash.value(touch.point), hash.value(touch.face);
+  hash.value(touch.normal), hash.value(touch.lambda), hash.value(touch.anchor);
+  hash.value(touch.sticks), hash.value(touch.slides);
+}
+
 template <class Tag>
 void addIds(Hash64& hash, const HandlePool<Tag>& pool) {
   hash.value(static_cast<uint64_t>(pool.count()));
@@ -120,6 +126,7 @@ uint64_t stateHash(const WorldData& data) {
     if (isLink(data.joints[slot].type)) add(hash, data.links[slot]);
   });
   forEachPair(data, [&](const PairData& pair) { add(hash, pair); });
+  for (const SoftTouch& touch : data.softTouches) add(hash, touch);
   return hash.digest();
 }
 

@@ -5,6 +5,7 @@
 #include <avbd/soft.h>
 #include <avbd/world.h>
 
+#include <tuple>
 #include <vector>
 
 #include "base/coupling_curve.h"
@@ -132,6 +133,21 @@ struct SoftData {
   uint64_t userData = 0;
 };
 
+/// A point of a soft body that touches a face of another one, with what it remembers.
+struct SoftTouch {
+  uint32_t pointSoft = kNone, faceSoft = kNone;  ///< slots
+  uint32_t point = 0, face = 0;                  ///< in their meshes
+  Vec3 normal;                                   ///< from the face to the point
+  Vec3 lambda;         ///< [N] of the last substep, on the point: along the normal, and across it
+  Vec3 anchor;         ///< where it stuck: weights of the face's corners
+  uint8_t sticks = 1;  ///< it did not slip in the last step
+  uint8_t slides = 0;  ///< steps since it stuck, saturating
+  /// By whose it is; a point touches one face of a body.
+  friend bool operator<(const SoftTouch& a, const SoftTouch& b) {
+    return std::tie(a.pointSoft, a.point, a.faceSoft) < std::tie(b.pointSoft, b.point, b.faceSoft);
+  }
+};
+
 /// A pair that touched when it left the list: its end is still to be reported, unless it is found again.
 struct LostTouch {
   ShapeId shape[2];  ///< A, B
@@ -178,6 +194,7 @@ struct WorldData {
   std::vector<D6Data> d6;               ///< by joint slot, up to the highest that needs one
   std::vector<LinkData> links;          ///< likewise
   std::vector<SoftData> softs;          ///< by slot
+  std::vector<SoftTouch> softTouches;   ///< of the last substep, ascending
   std::vector<uint32_t> couplings;      ///< joint slots, ascending
   bool jointForces = false;             ///< some joint was given a force for the next step
   uint32_t breakable = 0;               ///< how many joints have a bound in `breaks`

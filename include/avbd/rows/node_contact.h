@@ -1,0 +1,46 @@
+// Contact of a point with a face of a soft body: three rows over the point and the face's three corners.
+//
+// u = sum of weight_i d_i is the motion of the face, where the point meets it, against the point since the step's
+// start: weights are those of the corners, and -1 of the point. C_n = bias_n + n . u with n from the face to the point,
+// C_t = bias_t + t . u; J_i = weight_i times the direction, constant over the step. Bounds, stiffness and cone are
+// those of a contact of bodies (contact.h).
+#pragma once
+
+#include <avbd/rows/row.h>
+
+namespace avbd::rows {
+
+template <class R>
+struct NodeContact {
+  static constexpr int kBlocks = 4;
+  V3<R> n, t1, t2;
+  R weight[4];            ///< of the point, then of the corners; they sum to zero
+  R biasN, bias1, bias2;  ///< [m]
+  R floorN, floorT;       ///< [N/m]; 0 where there is no contact
+  R loadStiffness;        ///< [1/m]
+  R stiffest;             ///< [N/m]
+  R mu;
+  R lambdaN, lambda1, lambda2;  ///< [N]
+
+  template <class Sink>
+  AVBD_INLINE void rows(const V3<R> (&d)[4], Sink& sink) {
+    const R inf = splat<R>(kInfinity), one = splat<R>(1);
+    const V3<R> none = zeroV3<R>();
+    const V3<R> u = d[0] * weight[0] + d[1] * weight[1] + d[2] * weight[2] + d[3] * weight[3];
+    const R load = min(stiffest, lambdaN * loadStiffness);
+    const R kN = select(floorN > zero<R>(), max(floorN, load), zero<R>());
+    const R kT = select(floorT > zero<R>(), max(floorT, load), zero<R>());
+    const R normal = sink.emit(PairRow<R>{biasN + dot(n, u), n, none, kN, one, zero<R>(), inf}, lambdaN);
+    sink.emitCone(PairRow<R>{bias1 + dot(t1, u), t1, none, kT, one, -inf, inf},
+                  PairRow<R>{bias2 + dot(t2, u), t2, none, kT, one, -inf, inf}, lambda1, lambda2, mu * normal);
+  }
+};
+
+/// What the products with H need of it.
+template <class R>
+struct NodeContactOp {
+  R weight[4];
+  Sym3<R> stiffness;
+};
+
+}  // namespace avbd::rows

@@ -1,0 +1,80 @@
+// Rows of points that touch faces of soft bodies: constants of the step and remembered multipliers; and their
+// publication.
+#include <algorithm>
+
+#include "step/begin_rows.h"
+#include "step/contacts.h"
+#include "step/settings.h"
+#include "step/soft_touches.h"
+
+namespace avbd {
+
+namespace {
+
+constexpr float kMost = 2;           ///< as of contacts of bodies: bound of the load's stiffness [island masses / h^2]
+constexpr float kSlipping = 0.999f;  ///< likewise: of the cone
+
+const Material& surfaceOf(const WorldData& world, uint32_t body) {
+  return world.shapes[world.bodies[body].firstShape].material;
+}
+
+rows::NodeContact<float> touchRows(const WorldData& world, const StepData& step, const StepData::FoundTouch& found,
+                                   float mass, float leak) {
+  const SoftTouch& touch = found.touch;
+  const SoftData &points = world.softs[touch.pointSoft], &faces = world.softs[touch.faceSoft];
+  const auto& corner = faces.mesh->surface()[touch.face];
+  const uint32_t point = points.bodies[touch.point];
+  const TouchBasis basis = basisOf(touch.normal);
+  rows::NodeContact<float> c{};
+  c.n = toRow(touch.normal), c.t1 = toRow(basis.t1), c.t2 = toRow(basis.t2);
+  c.weight[0] = -1, c.weight[1] = found.weights.x, c.weight[2] = found.weights.y, c.weight[3] = found.weights.z;
+  const auto off = [&](size_t i) {
+    return toFloat(world.bodies[faces.bodies[corner[i]]].position - world.bodies[point].position);
+  };
+  const Vec3 slip = off(0) * touch.anchor.x + off(1) * touch.anchor.y + off(2) * touch.anchor.z;
+  c.biasN = normalBias(world, step, found.separation);
+  c.bias1 = (1 - step.alpha) * dot(slip, basis.t1);
+  c.bias2 = (1 - step.alpha) * dot(slip, basis.t2);
+  c.floorN = c.floorT = 1;  // prepareOthers puts the stiffness
+  c.loadStiffness = 1 / step.loadDepth;
+  c.stiffest = kMost * mass / (step.h * step.h);
+  const CombinedMaterial material = combined(surfaceOf(world, point), surfaceOf(world, faces.bodies[corner[0]]));
+  c.mu = touch.slides > 1 ? material.friction : material.staticFriction;
+  c.lambdaN = leak * touch.lambda.x, c.lambda1 = leak * touch.lambda.y, c.lambda2 = leak * touch.lambda.z;
+  return c;
+}
+
+}  // namespace
+
+void fillSoftTouches(const WorldData& world, StepData& step) {
+  for (const BatchRange& batch : step.batches) {
+    const float leak = withIterations(step.solve, batch.iterations).contactLeak;
+    for (size_t lane = size_t(batch.touchTile) * kTile; lane < size_t(batch.touchTile + batch.touchTiles) * kTile;
+         ++lane) {
+      rows::NodeContact<float> rows{};
+      const uint32_t index = step.touchLane[lane];
+      if (index != kNone) {
+        const StepData::FoundTouch& found = step.softTouches[index];
+        const float mass = step.islands[step.islandOf[world.softs[found.touch.faceSoft].bodies[0]]].mass;
+        rows = touchRows(world, step, found, mass, leak);
+      }
+      step.touchTiles[lane / kTile].set(static_cast<int>(lane % kTile), rows);
+    }
+  }
+}
+
+void publishSoftTouches(WorldData& world, const StepData& step) {
+  world.softTouches.resize(step.softTouches.size());
+  for (size_t i = 0; i < step.softTouches.size(); ++i) world.softTouches[i] = step.softTouches[i].touch;
+  for (size_t lane = 0; lane < step.touchLane.size(); ++lane) {
+    if (step.touchLane[lane] == kNone) continue;
+    const rows::NodeContact<float> c = step.touchTiles[lane / kTile].get(static_cast<int>(lane % kTile));
+    SoftTouch& touch = world.softTouches[step.touchLane[lane]];
+    touch.lambda = {c.lambdaN, c.lambda1, c.lambda2};
+    const float friction = c.lambda1 * c.lambda1 + c.lambda2 * c.lambda2, bound = kSlipping * c.mu * c.lambdaN;
+    touch.sticks = friction < bound * bound ? 1 : 0;
+    touch.slides = touch.sticks ? uint8_t{0} : static_cast<uint8_t>(std::min(touch.slides + 1, 255));
+  }
+}
+
+}  // namespace avbd
