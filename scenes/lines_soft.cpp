@@ -20,7 +20,7 @@ WorldDef weightless() {
 struct Soft {
   World world;
   SoftId id;
-  std::shared_ptr<const TetMeshData> mesh;
+  std::shared_ptr<const SoftMeshData> mesh;
   std::vector<BodyId> particles;
   float dt = 1.0f / 60;
 
@@ -241,6 +241,62 @@ std::vector<Figure> inverted(const Settings& settings) {
                  0.01, "", "scrambled")};
 }
 
+/// The longest edge of cloth against rest.
+double strainOf(const World& world, SoftId id) {
+  const auto mesh = world.mesh(id);
+  std::vector<Vec3d> at(mesh->points().size());
+  world.getPoints(id, at);
+  double strain = 0;
+  for (const auto& t : mesh->triangles())
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3 rest = mesh->points()[t[k]] - mesh->points()[t[(k + 1) % 3]];
+      const Vec3d now = at[t[k]] - at[t[(k + 1) % 3]];
+      strain = std::max(strain, std::sqrt(dot(now, now)) / double{length(rest)} - 1);
+    }
+  return strain;
+}
+
+double lowestOf(const World& world, SoftId id) {
+  double y = 1e9;
+  for (const BodyId p : world.particles(id)) y = std::min(y, world.pose(p).position.y);
+  return y;
+}
+
+const SoftMaterial kCanvas{.youngsModulus = 2e7f, .poissonRatio = 0, .density = 500, .thickness = 0.001f, .bending = 0};
+
+/// A rope 1 m long that hangs over 0.8 m: its sag against 2 a sinh(0.4 / a) = 1, depth a (cosh(0.4 / a) - 1).
+Figure rope(const Settings& settings) {
+  World world(apply(settings, {}));
+  const auto strip = makeClothGrid(0.5f, 0.01f, 50, 1);
+  const SoftId id = world.create(SoftDef{.mesh = strip, .material = kCanvas});
+  const std::vector<BodyId> beads = world.particles(id);
+  for (size_t i = 0; i < beads.size(); ++i) {
+    const Vec3 p = strip->points()[i];
+    if (std::fabs(p.x) < 0.499f) continue;
+    world.setPose(beads[i], {{double{p.x} * 0.8, 0, double{p.z}}, {}});
+    world.setLocks(beads[i], kLockLinearX | kLockLinearY | kLockLinearZ);
+  }
+  for (int i = 0; i < 1200; ++i) world.step(1.0f / 60);
+  double low = 0.1, high = 10;
+  while (high - low > 1e-12) {
+    const double a = (low + high) / 2;
+    (2 * a * std::sinh(0.4 / a) > 1 ? low : high) = a;
+  }
+  return within("sag", -lowestOf(world, id) / (low * (std::cosh(0.4 / low) - 1)), 1, 0.02, "of the catenary", "rope");
+}
+
+std::vector<Figure> curtain(const Settings& settings) {
+  World world(apply(settings, {}));
+  const auto mesh = makeClothGrid(0.5f, 0.5f, 20, 20);
+  const SoftId id = world.create(SoftDef{.mesh = mesh, .material = kCanvas});
+  const std::vector<BodyId> particles = world.particles(id);
+  for (size_t i = 0; i < particles.size(); ++i)
+    if (mesh->points()[i].z < -0.499f) world.setLocks(particles[i], kLockLinearX | kLockLinearY | kLockLinearZ);
+  for (int i = 0; i < 900; ++i) world.step(1.0f / 60);
+  return {atMost("strain", strainOf(world, id), 0.02, "", "curtain"),
+          within("length", -lowestOf(world, id), 1, 0.02, "m", "curtain"), rope(settings)};
+}
+
 /// Points of one body within tetrahedra of another.
 int pointsInside(const World& world, SoftId of, SoftId in) {
   const auto mesh = world.mesh(in);
@@ -333,9 +389,9 @@ std::vector<Figure> stackSoft(const Settings& settings) {
 
 std::vector<Line> softLines() {
   return {
-      {"S", "free_fall", freeFall, ""},    {"S", "soft_spin", spin, ""},      {"S", "bar", bar, ""},
-      {"S", "cantilever", cantilever, ""}, {"S", "poisson", poisson, ""},     {"S", "independence", independence, ""},
-      {"S", "inverted", inverted, ""},     {"S", "stack_soft", stackSoft, ""}};
+      {"S", "free_fall", freeFall, ""},    {"S", "soft_spin", spin, ""},       {"S", "bar", bar, ""},
+      {"S", "cantilever", cantilever, ""}, {"S", "poisson", poisson, ""},      {"S", "independence", independence, ""},
+      {"S", "inverted", inverted, ""},     {"S", "stack_soft", stackSoft, ""}, {"S", "curtain", curtain, ""}};
 }
 
 }  // namespace avbd::scenes

@@ -5,7 +5,7 @@
 #include <avbd/height_field.h>
 #include <avbd/hull.h>
 #include <avbd/mesh.h>
-#include <avbd/tet_mesh.h>
+#include <avbd/soft_mesh.h>
 
 #include <array>
 #include <cmath>
@@ -162,7 +162,8 @@ void addWaves(World& world, Draws& draws) {
 }
 
 // Every convex shape on a height field and a mesh side by side.
-// Two soft cubes that fall on the ground and on each other, a box hanging on a corner of one of them.
+// Cloth that falls on two soft cubes that fall on the ground and on each other, a box hanging on a corner of one of
+// them.
 World soft(const WorldDef& def) {
   World world = begin(def);
   const auto cube = makeTetBox({0.3f, 0.3f, 0.3f}, 3, 3, 3);
@@ -177,6 +178,9 @@ World soft(const WorldDef& def) {
         world.create(BodyDef{.position = corner.position + Vec3d{0, 0.2, 0}, .shape = Box{0.1f, 0.1f, 0.1f}});
     world.create(BallJoint{.bodyA = world.particles(id).back(), .bodyB = box, .frameB = {{0, -0.2, 0}, {}}});
   }
+  world.create(SoftDef{.mesh = makeClothGrid(0.6f, 0.6f, 6, 6),
+                       .pose = {{0.1, 2, 0}, {}},
+                       .material = {.youngsModulus = 2e5f, .density = 300}});
   return world;
 }
 

@@ -19,7 +19,7 @@
 #include <avbd/profile.h>
 #include <avbd/query.h>
 #include <avbd/soft.h>
+#include <avbd/soft_mesh.h>
 #include <avbd/tasks.h>
-#include <avbd/tet_mesh.h>
 #include <avbd/types.h>
 #include <avbd/world.h>

@@ -1,4 +1,4 @@
-// Soft bodies: elastic solids of tetrahedra.
+// Soft bodies: elastic solids of tetrahedra, and cloth of triangles.
 //
 // Each point of the mesh is a particle: a dynamic body of its share of the mass that does not turn. So what holds for
 // bodies holds for particles: ball and distance joints attach them to other bodies or to the world and may break,
@@ -6,7 +6,7 @@
 #pragma once
 
 #include <avbd/body.h>
-#include <avbd/tet_mesh.h>
+#include <avbd/soft_mesh.h>
 
 #include <memory>
 
@@ -16,10 +16,13 @@ struct SoftMaterial {
   float youngsModulus = 1e5f;  ///< [Pa] > 0
   float poissonRatio = 0.3f;   ///< -0.9 .. 0.499
   float density = 1000;        ///< [kg/m^3] > 0
+  float thickness = 0.002f;    ///< [m] > 0, of cloth
+  /// [N m] >= 0, of cloth: moment by length and curvature. Less than 0: that of a plate, E h^3 / 12 (1 - nu^2).
+  float bending = -1;
 };
 
 struct SoftDef {
-  std::shared_ptr<const TetMeshData> mesh{};
+  std::shared_ptr<const SoftMeshData> mesh{};
   Pose pose{};          ///< where the mesh lies, unstrained
   Velocity velocity{};  ///< of the whole: linear at the pose's origin, angular about it
   SoftMaterial material{};

@@ -128,7 +128,7 @@ class World {
 
   // Soft bodies.
   std::vector<SoftId> softBodies() const;  ///< in order of their slots
-  std::shared_ptr<const TetMeshData> mesh(SoftId id) const;
+  std::shared_ptr<const SoftMeshData> mesh(SoftId id) const;
   SoftMaterial material(SoftId id) const;
   float radius(SoftId id) const;                          ///< [m] as SoftDef::radius
   std::vector<BodyId> particles(SoftId id) const;         ///< by point of the mesh

@@ -61,6 +61,7 @@ class SnapshotZoo {
     const SoftId soft = world.create(SoftDef{.mesh = makeTetBox({0.3f, 0.2f, 0.3f}, 2, 1, 2),
                                              .pose = {{-9, 0.4, -9}, {}},
                                              .velocity = {{0.5f, 0, 0}, {0, 1, 0}}});
+    world.create(SoftDef{.mesh = makeClothGrid(0.4f, 0.4f, 3, 3), .pose = {{-9, 1, -9}, {}}});
     const BodyId tied = add({.position = {-8.5, 0.5, -9}, .shape = Sphere{0.1f}});
     const BodyId corner = world.particles(soft).back();
     const Vec3d at = world.pose(corner).position;

@@ -26,7 +26,7 @@ std::vector<SoftId> World::softBodies() const {
   return ids;
 }
 
-std::shared_ptr<const TetMeshData> World::mesh(SoftId id) const { return softOf(impl_->data, id, "World::mesh").mesh; }
+std::shared_ptr<const SoftMeshData> World::mesh(SoftId id) const { return softOf(impl_->data, id, "World::mesh").mesh; }
 SoftMaterial World::material(SoftId id) const { return softOf(impl_->data, id, "World::material").material; }
 float World::radius(SoftId id) const { return softOf(impl_->data, id, "World::radius").radius; }
 

@@ -2,6 +2,7 @@
 #include <avbd/avbd.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr float kDt = 1.0f / 60;
 
-std::shared_ptr<const TetMeshData> cube() { return makeTetBox({0.25f, 0.25f, 0.25f}, 3, 3, 3); }
+std::shared_ptr<const SoftMeshData> cube() { return makeTetBox({0.25f, 0.25f, 0.25f}, 3, 3, 3); }
 
 void run(World& world, int steps) {
   for (int i = 0; i < steps; ++i) world.step(kDt);
@@ -144,6 +145,75 @@ TEST(Soft, WhatIsNoneIsRefusedByName) {
   expectRefused({.pose = {{}, {0, 0, 0, 0}}}, "pose");
   expectRefused({.velocity = {{nan, 0, 0}, {}}}, "velocity");
   expectRefused({.surface = {.friction = -1}}, "surface");
+}
+
+/// How far the end of a strip of 0.2 m sinks that is clamped at the other, of what a plate does.
+TEST(Cloth, BendsAsAPlateDoes) {
+  World world;
+  const auto mesh = makeClothGrid(0.11f, 0.02f, 22, 4);        // 0.2 m, and a clamp of two columns
+  constexpr float kMass = 0.4f, kLength = 0.2f, kSag = 0.01f;  // [kg/m^2], [m], [m]
+  const SoftId id =
+      world.create(SoftDef{.mesh = mesh,
+                           .material = {.youngsModulus = 1e6f,
+                                        .poissonRatio = 0,
+                                        .density = kMass / 0.001f,
+                                        .thickness = 0.001f,
+                                        .bending = kMass * 9.81f * kLength * kLength * kLength * kLength / (8 * kSag)},
+                           .radius = 0.001f});
+  const std::vector<BodyId> particles = world.particles(id);
+  double end = 0;
+  int count = 0;
+  for (size_t i = 0; i < particles.size(); ++i)
+    if (mesh->points()[i].x < -0.0899f) world.setLocks(particles[i], kLockLinearX | kLockLinearY | kLockLinearZ);
+  run(world, 240);
+  for (size_t i = 0; i < particles.size(); ++i)
+    if (mesh->points()[i].x > 0.1099f) end -= world.pose(particles[i]).position.y, ++count;
+  // A grid of right triangles is softer than a plate (rows/cloth_bend.h).
+  EXPECT_GT(end / count, 1.1 * double{kSag});
+  EXPECT_LT(end / count, 1.5 * double{kSag});
+}
+
+TEST(Cloth, HangsWithLittleStrainAndKeepsItsWeight) {
+  World world;
+  const auto mesh = makeClothGrid(0.5f, 0.5f, 10, 10);
+  const SoftId id =
+      world.create(SoftDef{.mesh = mesh,
+                           .pose = {{}, {0.70710678f, 0.70710678f, 0, 0}},
+                           .material = {.youngsModulus = 1e6f, .density = 500, .thickness = 0.001f, .bending = 1e-5f}});
+  const std::vector<BodyId> particles = world.particles(id);
+  std::vector<JointId> hooks;
+  float mass = 0;
+  for (size_t i = 0; i < particles.size(); ++i) {
+    mass += world.mass(particles[i]);
+    if (mesh->points()[i].z < -0.499f)
+      hooks.push_back(
+          world.create(BallJoint{.bodyA = particles[i], .frameB = {world.pose(particles[i]).position, {}}}));
+  }
+  EXPECT_NEAR(mass, 0.5, 1e-4);
+  run(world, 240);
+  float force = 0;
+  for (const JointId hook : hooks) force += world.reaction(hook).force.y;
+  EXPECT_NEAR(std::abs(force), 0.5 * 9.81, 0.02 * 0.5 * 9.81);
+  double lowest = 0;
+  for (const BodyId p : particles) lowest = std::min(lowest, world.pose(p).position.y);
+  EXPECT_NEAR(lowest, -0.5, 0.01);
+}
+
+TEST(Cloth, FallsOnABallAndStaysThere) {
+  World world;
+  world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
+  world.create(BodyDef{.type = BodyType::Static, .position = {0, 0.5, 0}, .shape = Sphere{0.5f}});
+  const SoftId id = world.create(SoftDef{.mesh = makeClothGrid(0.6f, 0.6f, 16, 16),
+                                         .pose = {{0, 1.1, 0}, {}},
+                                         .material = {.youngsModulus = 2e5f, .density = 300, .thickness = 0.001f}});
+  run(world, 180);
+  double highest = 0;
+  for (const BodyId p : world.particles(id)) {
+    const Vec3d at = world.pose(p).position, off = at - Vec3d{0, 0.5, 0};
+    EXPECT_GT(std::sqrt(dot(off, off)), 0.5 + 0.01 - 0.003);
+    highest = std::max(highest, at.y);
+  }
+  EXPECT_GT(highest, 1);
 }
 
 /// Two cubes, one of them tied to a box, on the ground.

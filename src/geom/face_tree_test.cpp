@@ -1,7 +1,7 @@
 // The tree of faces finds all that a box overlaps, also after its points have moved.
 #include "geom/face_tree.h"
 
-#include <avbd/tet_mesh.h>
+#include <avbd/soft_mesh.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

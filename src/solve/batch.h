@@ -16,9 +16,11 @@
 #include <cstdint>
 #include <span>
 
+#include "avbd/rows/cloth_bend.h"
 #include "avbd/rows/family.h"
 #include "avbd/rows/node_contact.h"
 #include "avbd/rows/tet_elastic.h"
+#include "avbd/rows/triangle_elastic.h"
 #include "lane/tile.h"
 #include "solve/free_body.h"
 
@@ -88,6 +90,21 @@ struct ElasticTiles {
   uint32_t tiles = 0;
 };
 
+/// Elements of cloth: the fourth node is a static row.
+struct TriangleTiles {
+  const Tile<rows::TriangleElastic>* tile = nullptr;
+  const uint32_t* node[4] = {};
+  Tile<rows::TriangleOp>* op = nullptr;
+  uint32_t tiles = 0;
+};
+
+struct BendTiles {
+  const Tile<rows::ClothBend>* tile = nullptr;
+  const uint32_t* node[4] = {};
+  Tile<rows::NodeContactOp>* op = nullptr;
+  uint32_t tiles = 0;
+};
+
 /// Contacts of points with faces of soft bodies.
 struct NodeContactTiles {
   Tile<rows::NodeContact>* tile = nullptr;
@@ -135,7 +152,10 @@ struct BatchView {
   const Tile<FreeBody>* body = nullptr;  ///< of 16 rows each
   Tile<FreeMotion>* free = nullptr;
   Tile<EndMotion>* end = nullptr;
-  float* d = nullptr;         ///< displacement since the start of the step
+  float* d = nullptr;  ///< displacement since the start of the step
+  /// Of particles the motion of their soft body as a whole, and the rest of their velocities, times the time: an island
+  /// starts with as much of both as lowers its energy. Null: nothing.
+  const float *whole = nullptr, *deform = nullptr;
   float* target = nullptr;    ///< y: where the body would go alone
   float* mass = nullptr;      ///< (m, I xx yy zz xy xz yz, -) / h^2, I in world axes
   float* invMass = nullptr;   ///< (1/m, I^-1 ..., -); 0 for static and kinematic
@@ -157,6 +177,8 @@ struct BatchView {
   std::span<const SweptContact> swept;  ///< contacts whose rows follow the iterations (swept_contact.h)
   TetTiles tets;
   ElasticTiles elastic;
+  TriangleTiles triangles;
+  BendTiles bends;
   NodeContactTiles nodeContacts;
   ScalarJoints scalar;
   LinkedJoints linked;

@@ -233,6 +233,8 @@ void stampOthers(const BatchView& v, const SolveSettings& s, bool dual) {
   stampFull(v, s.contactLeak, dual);
   stampTets(v, dual);
   stampElastic(v);
+  stampTriangles(v);
+  stampBends(v);
   stampNodeContacts(v, s.contactLeak, dual);
 }
 
@@ -305,7 +307,6 @@ void multiplyOthers(const BatchView& v) {
   multiplyFull(v);
   multiplyTets(v);
   multiplyElastic(v);
-  multiplyNodeContacts(v);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "solve/krylov.h"
 
 #include <algorithm>
+#include <array>
 
 #include "avbd/rows/sinks.h"
 #include "solve/body_rows.h"
@@ -69,6 +70,15 @@ class Krylov {
     }
   }
 
+  /// q = H p.
+  void product() {
+    parts_.chunks([&](const Chunk& chunk) {
+      k_.multiplyRows(v_, chunk.rows);
+      k_.multiplyContacts(v_, chunk.tiles);
+    });
+    multiplyAcross();
+  }
+
  private:
   /// A step of each island's to its rows.
   void spread(Slice rows) {
@@ -121,11 +131,7 @@ class Krylov {
       if (!island.coupled) s_.active[n] = 0;
     }
     if (!any(s_.active)) return;
-    parts_.chunks([&](const Chunk& chunk) {
-      k_.multiplyRows(v_, chunk.rows);
-      k_.multiplyContacts(v_, chunk.tiles);
-    });
-    multiplyAcross();
+    product();
     for (uint32_t n = 0; n < v_.islands; ++n) {
       const IslandRange& island = v_.island[n];
       if (!island.hasTree || !s_.active[n]) continue;
@@ -300,10 +306,57 @@ void findLeast(const BatchView& view, float negligible, KrylovScratch& scratch) 
 
 }  // namespace
 
+namespace {
+
+/// Shares 0 .. 1 of both that make the energy least, by turns.
+std::array<float, 2> bestShares(const StartSums& s) {
+  constexpr int kTurns = 8;
+  std::array<float, 2> share{};
+  for (int i = 0; i < 2 * kTurns; ++i) {
+    const size_t k = static_cast<size_t>(i % 2);
+    if (!(s.curvature[k] > 0)) continue;
+    share[k] = rows::min(1.0f, rows::max(0.0f, (s.down[k] - s.both * share[1 - k]) / s.curvature[k]));
+  }
+  return share;
+}
+
+float dotRange(const float* a, const float* b, const IslandRange& island) {
+  float sum = 0;
+  for (size_t i = size_t(8) * island.begin; i < size_t(8) * island.end; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// d takes in as much of `whole` and `deform` as lowers the energy of the step, island by island.
+void startSofts(const BatchView& view, const KrylovTools& tools, const SolveSettings& settings, Forest* forest,
+                KrylovScratch& scratch) {
+  stamp(view, tools, settings, forest, Phase::First, scratch);
+  Krylov krylov(view, tools, forest, scratch);
+  std::vector<StartSums>& sums = scratch.start;
+  sums.assign(view.islands, {});
+  const float* const ways[2] = {view.whole, view.deform};
+  for (int k = 0; k < 2; ++k) {
+    std::copy_n(ways[k], size_t(8) * view.bodies, view.p);
+    krylov.product();
+    for (uint32_t n = 0; n < view.islands; ++n) {
+      sums[n].down[k] = dotRange(view.r, ways[k], view.island[n]);
+      sums[n].curvature[k] = dotRange(view.q, ways[k], view.island[n]);
+      if (k == 0) sums[n].both = dotRange(view.q, ways[1], view.island[n]);
+    }
+  }
+  for (uint32_t n = 0; n < view.islands; ++n) {
+    const std::array<float, 2> share = bestShares(sums[n]);
+    for (size_t i = size_t(8) * view.island[n].begin; i < size_t(8) * view.island[n].end; ++i)
+      view.d[i] += share[0] * view.whole[i] + share[1] * view.deform[i];
+  }
+}
+
+}  // namespace
+
 void solveKrylov(const BatchView& view, const KrylovTools& tools, const SolveSettings& settings, Forest* forest,
                  KrylovScratch& scratch) {
   scratch.unsolved.assign(view.islands, 1);
   findLeast(view, settings.negligible, scratch);
+  if (view.deform) startSofts(view, tools, settings, forest, scratch);
   for (int i = 0; i < settings.iterations; ++i) {
     const Phase phase = i > 0 ? Phase::Outer : Phase::First;
     iterate(view, tools, settings, forest, phase, scratch);

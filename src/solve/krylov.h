@@ -7,10 +7,16 @@
 
 namespace avbd {
 
+/// What a start along two ways needs: products with the force, and with each other through H.
+struct StartSums {
+  float down[2], curvature[2], both;
+};
+
 /// What one batch is solved with; memory is kept between steps.
 struct KrylovScratch {
   std::vector<float> rz, limit, step;
   std::vector<float> least;       ///< of r . M^-1 r: below it an island is solved
+  std::vector<StartSums> start;   ///< by island
   std::vector<uint8_t> active;    ///< islands that still iterate within an outer iteration
   std::vector<uint8_t> unsolved;  ///< islands that outer iterations still move
 };

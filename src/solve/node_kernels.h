@@ -56,15 +56,58 @@ void stampElastic(const BatchView& v) {
   });
 }
 
-void multiplyElastic(const BatchView& v) {
-  const ElasticTiles& all = v.elastic;
+void stampTriangles(const BatchView& v) {
+  const TriangleTiles& all = v.triangles;
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
-    V3<R> p[4], out[4];
-    gatherNodes(all.node, v.p, at, p);
-    multiply(all.op[t].load<N>(o), p, out);
-    scatterVectors(v.q, all.node, at, out);
+    const TriangleElastic<R> triangle = all.tile[t].load<N>(o);
+    V3<R> d[4], gradient[4];
+    gatherNodes(all.node, v.d, at, d);
+    const Stretch<R> s = triangle.stretch(d);
+    triangle.gradient(s, gradient);
+    all.op[t].store<N>(o, triangle.op(s));
+    scatterVectors(v.gradient, all.node, at, gradient);
+    const Sym3<R> block[4] = {triangle.block(s, -(triangle.bx + triangle.cx), -(triangle.by + triangle.cy)),
+                              triangle.block(s, triangle.bx, triangle.by), triangle.block(s, triangle.cx, triangle.cy),
+                              diagonal(zeroV3<R>())};
+    scatterBlocks(v, all.node, at, block);
   });
+}
+
+void stampBends(const BatchView& v) {
+  const BendTiles& all = v.bends;
+  forLanes({0, all.tiles}, [&](uint32_t t, int o) {
+    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
+    const ClothBend<R> bend = all.tile[t].load<N>(o);
+    V3<R> d[4], gradient[4];
+    gatherNodes(all.node, v.d, at, d);
+    bend.gradient(d, gradient);
+    const NodeContactOp<R> op = bend.op();
+    all.op[t].store<N>(o, op);
+    scatterVectors(v.gradient, all.node, at, gradient);
+    Sym3<R> block[4];
+    for (int i = 0; i < 4; ++i) block[i] = op.stiffness * (bend.weight[i] * bend.weight[i]);
+    scatterBlocks(v, all.node, at, block);
+  });
+}
+
+/// Of elements of any kind that multiply() knows.
+template <template <class> class Op>
+void multiplyElements(const BatchView& v, NodeRows rows, const Tile<Op>* op, uint32_t tiles) {
+  forLanes({0, tiles}, [&](uint32_t t, int o) {
+    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
+    V3<R> p[4], out[4];
+    gatherNodes(rows, v.p, at, p);
+    multiply(op[t].template load<N>(o), p, out);
+    scatterVectors(v.q, rows, at, out);
+  });
+}
+
+void multiplyElastic(const BatchView& v) {
+  multiplyElements<ElasticOp>(v, v.elastic.node, v.elastic.op, v.elastic.tiles);
+  multiplyElements<TriangleOp>(v, v.triangles.node, v.triangles.op, v.triangles.tiles);
+  multiplyElements<NodeContactOp>(v, v.bends.node, v.bends.op, v.bends.tiles);
+  multiplyElements<NodeContactOp>(v, v.nodeContacts.node, v.nodeContacts.op, v.nodeContacts.tiles);
 }
 
 void prepareNodeContacts(const BatchView& v, float factor) {
@@ -117,20 +160,6 @@ void dualNodeContacts(const BatchView& v, float leak) {
     DualSink<R> sink{splat<R>(leak)};
     c.rows(d, sink);
     all.tile[t].store<N>(o, c);
-  });
-}
-
-void multiplyNodeContacts(const BatchView& v) {
-  const NodeContactTiles& all = v.nodeContacts;
-  forLanes({0, all.tiles}, [&](uint32_t t, int o) {
-    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
-    const NodeContactOp<R> op = all.op[t].load<N>(o);
-    V3<R> p[4], out[4];
-    gatherNodes(all.node, v.p, at, p);
-    const V3<R> u = p[0] * op.weight[0] + p[1] * op.weight[1] + p[2] * op.weight[2] + p[3] * op.weight[3];
-    const V3<R> force = op.stiffness * u;
-    for (int i = 0; i < 4; ++i) out[i] = force * op.weight[i];
-    scatterVectors(v.q, all.node, at, out);
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "solve/parts.h"
 #include "step/begin_chunks.h"
+#include "step/begin_rows.h"
 #include "step/free_motion.h"
 #include "world/joints.h"
 
@@ -79,13 +80,6 @@ Vec3 steadyAcceleration(const BodyData& body, float weight) {
   return size > limit ? body.acceleration * (limit / size) : body.acceleration;
 }
 
-/// In the last step nothing carried it: where the conjugate gradients do not reach, a particle that is carried has to
-/// start from its velocity, as at rest all its forces are in balance there.
-bool fallsFreely(const WorldData& world, const BodyData& body) {
-  const Vec3 gravity = world.def.gravity * body.gravityScale, off = body.acceleration - gravity;
-  return dot(off, off) <= kLoaded * kLoaded * dot(gravity, gravity);
-}
-
 void write(float* row, Vec3 lin, Vec3 ang) {
   row[0] = lin.x, row[1] = lin.y, row[2] = lin.z;
   row[4] = ang.x, row[5] = ang.y, row[6] = ang.z;
@@ -95,10 +89,7 @@ void predictBody(const WorldData& world, StepData& step, uint32_t index, uint32_
   const size_t at = size_t(8) * row;
   const BodyData& body = world.bodies[step.order[index]];
   const float weight = length(world.def.gravity) * rows::abs(body.gravityScale) * body.mass;
-  if (body.soft != kNone) {
-    if (fallsFreely(world, body)) return void(std::copy_n(step.target.data() + at, 8, step.d.data() + at));
-    return write(step.d.data() + at, unlocked(body.linearVelocity * step.h, body.locks), {});
-  }
+  if (body.soft != kNone) return;  // predictSofts()
   if (length(step.carried[row]) <= kLoaded * weight) {
     std::copy_n(step.target.data() + at, 8, step.d.data() + at);
     return;
@@ -132,6 +123,7 @@ void predict(WorldData& world, StepData& step) {
   forUnits(step, [&](const WorkUnit& unit) {
     forBodies(step, unit, [&](uint32_t index, uint32_t row) { predictBody(world, step, index, row); });
   });
+  predictSofts(world, step);
   if (!step.swept.empty()) startAtImpacts(step);
 }
 

@@ -7,18 +7,17 @@ namespace avbd {
 
 namespace {
 
-/// At most, of an island with elements. What a search leaves undone an element feels as a missing force, and one that
-/// is done ends by itself: a stiff beam costs less with many than with few, as the outer iterations then find nothing.
-constexpr int kElasticKrylov = 100;
+/// At most, of an island with elements: what a search leaves undone slows the motion of what is stiff.
+constexpr int kElasticKrylov = 24;
 
 void solveBatch(const WorldData& world, StepData& step, uint32_t index, Jobs* jobs, int worker) {
   const BatchRange& batch = step.batches[index];
   SolveSettings settings = withIterations(step.solve, batch.iterations);
-  if (batch.elasticTiles > 0 && world.def.krylovIterations == 0) settings.krylovIterations = kElasticKrylov;
+  if (batch.hasElements() && world.def.krylovIterations == 0) settings.krylovIterations = kElasticKrylov;
   Forest* forest = batch.forest != kNone ? &step.forests[batch.forest] : nullptr;
   const auto at = static_cast<size_t>(worker);
   // Colours know nothing of elements.
-  if (world.def.primalSolver == PrimalSolver::BlockSweep && batch.elasticTiles == 0) {
+  if (world.def.primalSolver == PrimalSolver::BlockSweep && !batch.hasElements()) {
     const Colors colors{step.coloring.ofOrder.data() + batch.orderBegin, step.coloring.colors};
     solveSweep(step.view(index), *step.backend, settings, colors, step.sweep[at]);
   } else {

@@ -14,8 +14,9 @@ void clearLanes(StepData& step) {
     for (int side = 0; side < 2; ++side) lanes[side].clear();
   for (auto& lanes : step.tetRow) lanes.clear();
   step.contactPair.clear(), step.ballJoint.clear(), step.fixedJoint.clear(), step.tetJoint.clear();
-  for (auto& lanes : step.elasticRow) lanes.clear();
-  step.elements.clear();
+  for (auto* lanes : {step.elasticRow, step.triangleRow, step.bendRow})
+    for (int i = 0; i < 4; ++i) lanes[i].clear();
+  step.elements.clear(), step.triangles.clear(), step.hinges.clear();
   for (auto& lanes : step.touchRow) lanes.clear();
   step.touchLane.clear();
   step.fullPair.clear(), step.scalar.clear(), step.linked.clear();
@@ -84,22 +85,38 @@ void addJoints(const WorldData& world, StepData& step, BatchRange& batch) {
   batch.tetTiles = static_cast<uint32_t>(step.tetJoint.size()) / kTile - batch.tetTile;
 }
 
-void addElements(const WorldData& world, StepData& step, BatchRange& batch) {
-  batch.elasticTile = static_cast<uint32_t>(step.elements.size()) / kTile;
-  for (uint32_t n = 0; n < batch.islandCount; ++n) {
-    const Island& island = step.islands[batch.islandBegin + n];
-    for (uint32_t i = 0; i < island.softCount; ++i) {
-      const uint32_t slot = step.islandSofts[island.softBegin + i];
-      const SoftData& soft = world.softs[slot];
-      for (uint32_t tet = 0; tet < soft.mesh->tets().size(); ++tet) {
-        step.elements.push_back({slot, tet});
-        for (size_t k = 0; k < 4; ++k) step.elasticRow[k].push_back(step.rowOf[soft.bodies[soft.mesh->tets()[tet][k]]]);
+/// Lanes for all elements of one kind of a batch's soft bodies. Returns its tiles.
+template <size_t n, class Of>
+Slice addElements(const WorldData& world, StepData& step, const BatchRange& batch,
+                  std::vector<StepData::Element>& elements, std::vector<uint32_t> (&rows)[4], Of&& of) {
+  const auto begin = static_cast<uint32_t>(elements.size()) / kTile;
+  for (uint32_t i = 0; i < batch.islandCount; ++i) {
+    const Island& island = step.islands[batch.islandBegin + i];
+    for (uint32_t k = island.softBegin; k < island.softBegin + island.softCount; ++k) {
+      const SoftData& soft = world.softs[step.islandSofts[k]];
+      const std::span<const std::array<uint32_t, n>> all = of(*soft.mesh);
+      for (uint32_t index = 0; index < all.size(); ++index) {
+        elements.push_back({step.islandSofts[k], index});
+        for (size_t c = 0; c < 4; ++c)
+          rows[c].push_back(c < n ? step.rowOf[soft.bodies[all[index][c % n]]] : batch.bodies);
       }
     }
   }
-  step.elements.resize(roundUp(static_cast<uint32_t>(step.elements.size())));
-  for (auto& lanes : step.elasticRow) padLanes(lanes, batch.bodies);
-  batch.elasticTiles = static_cast<uint32_t>(step.elements.size()) / kTile - batch.elasticTile;
+  elements.resize(roundUp(static_cast<uint32_t>(elements.size())));
+  for (auto& lanes : rows) padLanes(lanes, batch.bodies);
+  return {begin, static_cast<uint32_t>(elements.size()) / kTile};
+}
+
+void addSofts(const WorldData& world, StepData& step, BatchRange& batch) {
+  const Slice tets = addElements<4>(world, step, batch, step.elements, step.elasticRow,
+                                    [](const SoftMeshData& mesh) { return mesh.tets(); });
+  const Slice triangles = addElements<3>(world, step, batch, step.triangles, step.triangleRow,
+                                         [](const SoftMeshData& mesh) { return mesh.triangles(); });
+  const Slice hinges = addElements<4>(world, step, batch, step.hinges, step.bendRow,
+                                      [](const SoftMeshData& mesh) { return mesh.hinges(); });
+  batch.elasticTile = tets.begin, batch.elasticTiles = tets.end - tets.begin;
+  batch.triangleTile = triangles.begin, batch.triangleTiles = triangles.end - triangles.begin;
+  batch.bendTile = hinges.begin, batch.bendTiles = hinges.end - hinges.begin;
 }
 
 void addTouches(const WorldData& world, StepData& step, BatchRange& batch) {
@@ -165,6 +182,9 @@ void resizeTiles(StepData& step) {
   makeRoom(step.tets, tets), makeRoom(step.full, full);
   const size_t elements = step.elements.size() / kTile;
   makeRoom(step.touchTiles, step.touchLane.size() / kTile), makeRoom(step.touchOp, step.touchLane.size() / kTile);
+  const size_t triangles = step.triangles.size() / kTile, hinges = step.hinges.size() / kTile;
+  makeRoom(step.triangleTiles, triangles), makeRoom(step.triangleOp, triangles);
+  makeRoom(step.bendTiles, hinges), makeRoom(step.bendOp, hinges);
   makeRoom(step.elastic, elements), makeRoom(step.elasticOp, elements);
   makeRoom(step.op, contacts + balls + fixed + scalars), makeRoom(step.tetOp, tets), makeRoom(step.fullOp, full);
 }
@@ -218,7 +238,7 @@ void layOutBatches(const WorldData& world, StepData& step) {
     addContacts(step, batch);
     addFull(world, step, batch);
     addJoints(world, step, batch);
-    addElements(world, step, batch);
+    addSofts(world, step, batch);
     addTouches(world, step, batch);
     batch.rows = roundUp(batch.rows);
     step.chunks.back().rows.end = batch.chunkCount > 1 ? roundUp(batch.bodies) : batch.rows;
@@ -240,6 +260,7 @@ BatchView StepData::view(size_t index) {
   v.body = body.data() + tile, v.free = free.data() + tile, v.end = endTiles.data() + tile;
   v.d = d.data() + at, v.target = target.data() + at, v.mass = mass.data() + at, v.invMass = invMass.data() + at;
   v.diagonal = diagonal.data() + at, v.gradient = gradient.data() + at;
+  if (b.hasElements() && !whole.empty()) v.whole = whole.data() + at, v.deform = deform.data() + at;
   v.hessian = hessian.data() + size_t(kHessianRow) * b.rowBegin;
   v.inverse = inverse.data() + b.rowBegin / kTile;
   v.x = x.data() + at, v.r = r.data() + at, v.z = z.data() + at, v.p = p.data() + at, v.q = q.data() + at;
@@ -269,6 +290,14 @@ BatchView StepData::view(size_t index) {
   v.elastic.op = elasticOp.data() + b.elasticTile;
   v.elastic.tiles = b.elasticTiles;
   for (int i = 0; i < 4; ++i) v.elastic.node[i] = elasticRow[i].data() + b.elasticTile * kTile;
+  v.triangles.tile = triangleTiles.data() + b.triangleTile, v.triangles.op = triangleOp.data() + b.triangleTile;
+  v.triangles.tiles = b.triangleTiles;
+  v.bends.tile = bendTiles.data() + b.bendTile, v.bends.op = bendOp.data() + b.bendTile;
+  v.bends.tiles = b.bendTiles;
+  for (int i = 0; i < 4; ++i) {
+    v.triangles.node[i] = triangleRow[i].data() + b.triangleTile * kTile;
+    v.bends.node[i] = bendRow[i].data() + b.bendTile * kTile;
+  }
   v.nodeContacts.tile = touchTiles.data() + b.touchTile;
   v.nodeContacts.op = touchOp.data() + b.touchTile;
   v.nodeContacts.tiles = b.touchTiles;

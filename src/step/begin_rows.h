@@ -44,6 +44,8 @@ void fillBodies(const WorldData& world, StepData& step);
 void fillContacts(WorldData& world, StepData& step, const WorkUnit& unit);  ///< may run beside other units
 void fillFullContacts(WorldData& world, StepData& step);
 void fillJoints(const WorldData& world, StepData& step);
+/// Of soft bodies: d and deform.
+void predictSofts(const WorldData& world, StepData& step);
 void fillElements(const WorldData& world, StepData& step);
 void fillScalarJoints(const WorldData& world, StepData& step);
 /// Acceleration drives of trees, after the scalar joints: by the inertia of all that hangs on them.

@@ -47,7 +47,7 @@ void place(const WorldData& world, const SoftData& soft, Place& out) {
     fastest = std::max(fastest, dot(body.linearVelocity, body.linearVelocity));
   }
   out.fastest = rows::sqrt(fastest);
-  const TetMeshData& mesh = *soft.mesh;
+  const SoftMeshData& mesh = *soft.mesh;
   mesh.faceTree().refit(
       mesh.surface(), [&](uint32_t i) { return out.points[i]; }, out.bounds);
 }
@@ -117,14 +117,28 @@ class PairSearch {
     });
     if (search.face == kNone) return;
     const float distance = rows::sqrt(search.distance2);
-    const bool inside = dot(search.normal, p - search.nearest.point) < 0;
+    const Vec3 off = p - search.nearest.point;
+    const bool inside = faces_.mesh->isCloth() ? isBeyond(point, off) : dot(search.normal, off) < 0;
     const float speed = length(world_.bodies[points_.bodies[point]].linearVelocity) + facePlace_.fastest;
     const float margin = kSpeculative * world_.def.lengthUnit + std::min(speed * step_.h, faces_.mesh->faceSize());
     const float separation = (inside ? -distance : distance) - thickness_;
     if (separation > margin || (inside && distance > faces_.mesh->faceSize()) || !mayMeet(point, search.face)) return;
     const float sign = inside ? -1.0f : 1.0f;
     const bool apart = distance > 1e-3f * thickness_;
-    add(point, search, apart ? (p - search.nearest.point) * (sign / distance) : search.normal, separation);
+    add(point, search, apart ? off * (sign / distance) : search.normal, separation);
+  }
+
+  /// Cloth has no inside: what touched it from one side and is on the other one by now has passed.
+  bool isBeyond(uint32_t point, Vec3 off) const {
+    const SoftTouch* old = remembered(point);
+    return old && dot(old->normal, off) < 0;
+  }
+  const SoftTouch* remembered(uint32_t point) const {
+    SoftTouch key;
+    key.pointSoft = slots_[0], key.point = point, key.faceSoft = slots_[1];
+    const auto& all = world_.softTouches;
+    const auto old = std::lower_bound(all.begin(), all.end(), key);
+    return old == all.end() || key < *old ? nullptr : &*old;
   }
 
   bool mayMeet(uint32_t point, uint32_t face) const {
@@ -147,9 +161,8 @@ class PairSearch {
 
   /// Multipliers, and the place of sticking while the face is the same.
   void remember(SoftTouch& touch) const {
-    const auto& all = world_.softTouches;
-    const auto old = std::lower_bound(all.begin(), all.end(), touch);
-    if (old == all.end() || touch < *old || dot(old->normal, touch.normal) <= kSameNormal) return;
+    const SoftTouch* old = remembered(touch.point);
+    if (!old || dot(old->normal, touch.normal) <= kSameNormal) return;
     const TouchBasis before = basisOf(old->normal), now = basisOf(touch.normal);
     const Vec3 tangential = before.t1 * old->lambda.y + before.t2 * old->lambda.z;
     touch.lambda = {old->lambda.x, dot(tangential, now.t1), dot(tangential, now.t2)};

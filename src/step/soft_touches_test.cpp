@@ -33,7 +33,7 @@ TEST(NearestOnFace, NoPointOfItIsNearer) {
   }
 }
 
-std::shared_ptr<const TetMeshData> cube() { return makeTetBox({0.25f, 0.25f, 0.25f}, 3, 3, 3); }
+std::shared_ptr<const SoftMeshData> cube() { return makeTetBox({0.25f, 0.25f, 0.25f}, 3, 3, 3); }
 
 void run(World& world, int steps) {
   for (int i = 0; i < steps; ++i) world.step(kDt);

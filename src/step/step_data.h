@@ -43,6 +43,9 @@ struct BatchRange {
   uint32_t tetTile = 0, tetTiles = 0;
   uint32_t elasticTile = 0, elasticTiles = 0;
   uint32_t touchTile = 0, touchTiles = 0;
+  uint32_t triangleTile = 0, triangleTiles = 0;
+  uint32_t bendTile = 0, bendTiles = 0;
+  bool hasElements() const { return elasticTiles + triangleTiles > 0; }
   uint32_t fullTile = 0, fullTiles = 0;
   uint32_t scalarTile = 0, scalarTiles = 0, scalarCount = 0;
   uint32_t linkedBegin = 0, linkedCount = 0;
@@ -332,6 +335,7 @@ struct StepData {
   UnwrittenVector<Tile<FreeMotion>> free;
   UnwrittenVector<Tile<EndMotion>> endTiles;
   UnwrittenVector<float> d, target, mass, invMass, diagonal, gradient, hessian, x, r, z, p, q, length, product;
+  std::vector<float> whole, deform;  ///< as in BatchView; only where there are soft bodies
   UnwrittenVector<Tile<rows::Sym6>> inverse;
   std::vector<uint32_t> lockedRows;
   std::vector<uint8_t> locks;
@@ -348,12 +352,16 @@ struct StepData {
   std::vector<uint32_t> contactRow[2], ballRow[2], fixedRow[2], tetRow[4], fullRow[2], scalarRow[2];
   std::vector<uint32_t> contactPair, ballJoint, fixedJoint, tetJoint;  ///< by lane: pair or joint slot, kNone
   UnwrittenVector<Tile<PairOp>> op;
-  /// Of an element by lane: its soft body, kNone, and its place in the mesh.
+  /// Of elements and hinges by lane: the soft body, kNone, and the place in its mesh.
   struct Element {
-    uint32_t soft = kNone, tet = 0;
+    uint32_t soft = kNone, index = 0;
   };
-  std::vector<Element> elements;
-  std::vector<uint32_t> elasticRow[4];
+  std::vector<Element> elements, triangles, hinges;
+  std::vector<uint32_t> elasticRow[4], triangleRow[4], bendRow[4];
+  UnwrittenVector<Tile<rows::TriangleElastic>> triangleTiles;
+  UnwrittenVector<Tile<rows::TriangleOp>> triangleOp;
+  UnwrittenVector<Tile<rows::ClothBend>> bendTiles;
+  UnwrittenVector<Tile<rows::NodeContactOp>> bendOp;
   std::vector<uint32_t> touchLane;  ///< index in softTouches by lane, kNone
   std::vector<uint32_t> touchRow[4];
   UnwrittenVector<Tile<rows::NodeContact>> touchTiles;

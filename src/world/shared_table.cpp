@@ -19,7 +19,7 @@ uint64_t hashOf(const SharedTable::Thing& thing) {
   }
   if (const auto* hull = std::get_if<std::shared_ptr<const HullData>>(&thing)) return (*hull)->contentHash();
   if (const auto* mesh = std::get_if<std::shared_ptr<const MeshData>>(&thing)) return (*mesh)->contentHash();
-  if (const auto* solid = std::get_if<std::shared_ptr<const TetMeshData>>(&thing)) return (*solid)->contentHash();
+  if (const auto* solid = std::get_if<std::shared_ptr<const SoftMeshData>>(&thing)) return (*solid)->contentHash();
   return std::get<std::shared_ptr<const HeightFieldData>>(thing)->contentHash();
 }
 
@@ -49,7 +49,7 @@ uint32_t SharedTable::find(Kind kind, uint64_t hash, uint32_t number) const {
 }
 
 const char* kindName(SharedTable::Kind kind) {
-  constexpr const char* kNames[] = {"Hull", "Mesh", "HeightField", "CustomFamily", "TetMesh"};
+  constexpr const char* kNames[] = {"Hull", "Mesh", "HeightField", "CustomFamily", "SoftMesh"};
   return kNames[static_cast<size_t>(kind)];
 }
 

@@ -4,7 +4,7 @@
 
 #include <avbd/custom_joint.h>
 #include <avbd/geometry.h>
-#include <avbd/tet_mesh.h>
+#include <avbd/soft_mesh.h>
 
 #include <memory>
 #include <unordered_map>
@@ -16,10 +16,10 @@ namespace avbd {
 /// Grows with what snapshots name and keeps it alive, so that a world can go back to a shape that is gone by now.
 class SharedTable {
  public:
-  enum class Kind : uint8_t { Hull, Mesh, HeightField, Family, TetMesh };
+  enum class Kind : uint8_t { Hull, Mesh, HeightField, Family, SoftMesh };
   using Thing = std::variant<std::shared_ptr<const HullData>, std::shared_ptr<const MeshData>,
                              std::shared_ptr<const HeightFieldData>, std::shared_ptr<const CustomFamily>,
-                             std::shared_ptr<const TetMeshData>>;
+                             std::shared_ptr<const SoftMeshData>>;
   struct Entry {
     Thing thing;
     uint64_t hash = 0;  ///< of its content; of a family of its name and count of rows

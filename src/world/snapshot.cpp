@@ -69,7 +69,7 @@ void codeThings(Reader& in, KnownThings& things) {
   const size_t count = in.count(sizeof(uint8_t) + sizeof(uint64_t));
   for (uint32_t i = 0; i < count; ++i) {
     const auto kind = in.take<SharedTable::Kind>();
-    require(kind <= SharedTable::Kind::TetMesh, "a thing of no kind");
+    require(kind <= SharedTable::Kind::SoftMesh, "a thing of no kind");
     things.entryOf.push_back(things.table.find(kind, in.take<uint64_t>(), i));
   }
 }

@@ -11,6 +11,7 @@ template <class Codec, class Soft>
 void codeNumbers(Codec& codec, Soft& soft) {
   auto& [mesh, material, radius, bodies, userData] = soft;
   codec.put(material.youngsModulus), codec.put(material.poissonRatio), codec.put(material.density);
+  codec.put(material.thickness), codec.put(material.bending);
   codec.put(radius), codec.put(userData);
 }
 
@@ -66,7 +67,7 @@ void codeSofts(Reader& in, WorldData& data, const KnownThings& things) {
   data.softIds.forEach([&](uint32_t slot) {
     SoftData& soft = data.softs[slot];
     soft.mesh =
-        std::get<std::shared_ptr<const TetMeshData>>(things.thing(in.take<uint32_t>(), SharedTable::Kind::TetMesh));
+        std::get<std::shared_ptr<const SoftMeshData>>(things.thing(in.take<uint32_t>(), SharedTable::Kind::SoftMesh));
     codeNumbers(in, soft);
     require(soft.material.youngsModulus > 0 && soft.material.poissonRatio < 0.5f && soft.material.poissonRatio > -1,
             "a soft body's material");

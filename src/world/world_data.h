@@ -126,7 +126,7 @@ struct LinkData {
 };
 
 struct SoftData {
-  std::shared_ptr<const TetMeshData> mesh;
+  std::shared_ptr<const SoftMeshData> mesh;
   SoftMaterial material;
   float radius = 0;
   std::vector<uint32_t> bodies;  ///< slots, by point of the mesh

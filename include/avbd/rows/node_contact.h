@@ -43,4 +43,12 @@ struct NodeContactOp {
   Sym3<R> stiffness;
 };
 
+/// H p of the four blocks.
+template <class R>
+AVBD_INLINE void multiply(const NodeContactOp<R>& o, const V3<R> (&p)[4], V3<R> (&out)[4]) {
+  const V3<R> u = p[0] * o.weight[0] + p[1] * o.weight[1] + p[2] * o.weight[2] + p[3] * o.weight[3];
+  const V3<R> force = o.stiffness * u;
+  for (int i = 0; i < 4; ++i) out[i] = force * o.weight[i];
+}
+
 }  // namespace avbd::rows

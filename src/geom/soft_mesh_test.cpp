@@ -1,6 +1,6 @@
 // Tetrahedral meshes: what is refused, what is repaired, and what the surface is.
 #include <avbd/error.h>
-#include <avbd/tet_mesh.h>
+#include <avbd/soft_mesh.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ void expectRefused(const std::vector<Vec3>& points, const std::vector<Tet>& tets
 }
 
 TEST(TetMesh, WhatIsNoneIsRefusedByName) {
-  expectRefused(kPoints, {}, "tets = 0 tetrahedra");
+  expectRefused(kPoints, {}, "tets = none");
   expectRefused(kPoints, {{0, 1, 2, 5}}, "tets[0] = 5: must be < 5");
   std::vector<Vec3> bad = kPoints;
   bad[2].y = std::numeric_limits<float>::quiet_NaN();
@@ -48,8 +48,8 @@ TEST(TetMesh, RepairsByItsRules) {
   std::vector<Vec3> points = kPoints;
   points.push_back({9, 9, 9});
   const auto mesh = makeTetMesh({points, std::vector<Tet>{{0, 1, 2, 3}, {4, 1, 2, 3}, {3, 2, 1, 0}, {0, 1, 2, 1}}});
-  const TetMeshReport& report = mesh->report();
-  EXPECT_EQ(report.tets, 2u);
+  const SoftMeshReport& report = mesh->report();
+  EXPECT_EQ(report.elements, 2u);
   EXPECT_EQ(report.inverted, 1u);
   EXPECT_EQ(report.duplicate, 1u);
   EXPECT_EQ(report.degenerate, 1u);
@@ -101,6 +101,49 @@ TEST(TetMesh, HashesAreOfTheContent) {
   const auto a = makeTetBox({1, 1, 1}, 2, 2, 2), b = makeTetBox({1, 1, 1}, 2, 2, 2), c = makeTetBox({1, 1, 2}, 2, 2, 2);
   EXPECT_EQ(a->contentHash(), b->contentHash());
   EXPECT_NE(a->contentHash(), c->contentHash());
+}
+
+std::string clothComplaint(const std::vector<Vec3>& points, const std::vector<std::array<uint32_t, 3>>& triangles) {
+  try {
+    makeClothMesh({points, triangles});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ClothMesh, WhatIsNoneIsRefusedByName) {
+  EXPECT_NE(clothComplaint(kPoints, {}).find("ClothMeshDef.triangles = none"), std::string::npos);
+  EXPECT_NE(clothComplaint(kPoints, {{0, 1, 9}}).find("triangles[0] = 9"), std::string::npos);
+  EXPECT_NE(clothComplaint(kPoints, {{0, 1, 1}}).find("at least one that has area"), std::string::npos);
+  EXPECT_NE(clothComplaint(kPoints, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}).find("share the edge 0 1"), std::string::npos);
+  EXPECT_THROW(makeClothGrid(0, 1, 1, 1), Error);
+  EXPECT_THROW(makeClothGrid(1, 1, 0, 1), Error);
+  EXPECT_THROW(makeClothGrid(1, std::numeric_limits<float>::quiet_NaN(), 1, 1), Error);
+}
+
+TEST(ClothMesh, AGridHasTheHingesOfItsInnerEdges) {
+  const auto mesh = makeClothGrid(1, 0.5f, 4, 3);
+  EXPECT_TRUE(mesh->isCloth());
+  EXPECT_EQ(mesh->points().size(), size_t{5 * 4});
+  EXPECT_EQ(mesh->triangles().size(), size_t{2 * 4 * 3});
+  EXPECT_EQ(mesh->hinges().size(), size_t{4 * 3 + 3 * 3 + 4 * 2});
+  EXPECT_NEAR(mesh->area(), 2, 1e-5);
+  EXPECT_EQ(mesh->volume(), 0);
+  for (const auto& triangle : mesh->triangles()) {
+    const Vec3 a = mesh->points()[triangle[0]], b = mesh->points()[triangle[1]], c = mesh->points()[triangle[2]];
+    EXPECT_GT(cross(b - a, c - a).y, 0);
+  }
+}
+
+TEST(ClothMesh, RepairsByItsRules) {
+  const auto mesh =
+      makeClothMesh({kPoints, std::vector<std::array<uint32_t, 3>>{{0, 1, 2}, {2, 0, 1}, {0, 3, 3}, {2, 1, 4}}});
+  EXPECT_EQ(mesh->report().elements, 2u);
+  EXPECT_EQ(mesh->report().duplicate, 1u);
+  EXPECT_EQ(mesh->report().degenerate, 1u);
+  EXPECT_EQ(mesh->report().unused, 1u);
+  EXPECT_EQ(mesh->sourcePoint(3), 4u);
 }
 
 }  // namespace

@@ -1,20 +1,17 @@
-// Tetrahedral meshes: checks, repair, surface (tet_mesh.h).
+// Solids of tetrahedra (soft_mesh.h).
 #include <avbd/error.h>
-#include <avbd/tet_mesh.h>
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "base/format.h"
-#include "base/hash.h"
-#include "geom/face_tree.h"
+#include "geom/soft_mesh_parts.h"
 
 namespace avbd {
-namespace {
 
-constexpr float kMaxCoordinate = 1e6f;
-constexpr double kFlat = 1e-5;  ///< [of the longest edge] least height of a tetrahedron
+using namespace soft_mesh;
+
+namespace {
 
 using Tet = std::array<uint32_t, 4>;
 
@@ -22,32 +19,10 @@ using Tet = std::array<uint32_t, 4>;
   throw Error("TetMeshDef", std::move(field), std::move(value), std::move(range));
 }
 
-std::string at(const char* field, size_t index) { return std::string(field) + "[" + toText(index) + "]"; }
-
-bool inRange(float x) { return x >= -kMaxCoordinate && x <= kMaxCoordinate; }
-
-void check(const TetMeshDef& def) {
-  if (def.tets.empty()) refuse("tets", "0 tetrahedra", "must have at least one");
-  for (size_t i = 0; i < def.points.size(); ++i) {
-    const Vec3 p = def.points[i];
-    if (!inRange(p.x) || !inRange(p.y) || !inRange(p.z))
-      refuse(at("points", i), toText(p), "must be finite and within +-1e+06");
-  }
-  for (size_t i = 0; i < def.tets.size(); ++i)
-    for (const uint32_t p : def.tets[i])
-      if (p >= def.points.size())
-        refuse(at("tets", i), toText(p), "must be < " + toText(def.points.size()) + ", the points");
-}
-
 double sixVolumes(std::span<const Vec3> points, const Tet& t) {
   const Vec3d o = toDouble(points[t[0]]);
   const Vec3d a = toDouble(points[t[1]]) - o, b = toDouble(points[t[2]]) - o, c = toDouble(points[t[3]]) - o;
-  return dot(a, Vec3d{b.y * c.z - b.z * c.y, b.z * c.x - b.x * c.z, b.x * c.y - b.y * c.x});
-}
-
-Tet sorted(Tet t) {
-  std::sort(t.begin(), t.end());
-  return t;
+  return dot(a, crossOf(b, c));
 }
 
 /// Faces opposite each corner, seen from outside.
@@ -59,7 +34,7 @@ bool isFlat(std::span<const Vec3> points, const Tet& t, double six) {
   for (const auto& f : kFaces) {
     const Vec3d o = toDouble(points[t[f[0]]]);
     const Vec3d a = toDouble(points[t[f[1]]]) - o, b = toDouble(points[t[f[2]]]) - o, c = b - a;
-    const Vec3d n{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    const Vec3d n = crossOf(a, b);
     largest = std::max(largest, dot(n, n));
     longest = std::max({longest, dot(a, a), dot(b, b), dot(c, c)});
   }
@@ -104,14 +79,7 @@ std::vector<std::array<uint32_t, 3>> surfaceOf(const std::vector<Tet>& tets) {
   return surface;
 }
 
-float meanEdge(std::span<const Vec3> points, std::span<const std::array<uint32_t, 3>> faces) {
-  double sum = 0;
-  for (const auto& face : faces)
-    for (size_t i = 0; i < 3; ++i) sum += double{length(points[face[i]] - points[face[(i + 1) % 3]])};
-  return static_cast<float>(sum / (3 * static_cast<double>(faces.size())));
-}
-
-std::vector<Tet> repaired(const TetMeshDef& def, TetMeshReport& report) {
+std::vector<Tet> repaired(const TetMeshDef& def, SoftMeshReport& report) {
   std::vector<Tet> kept;
   for (Tet t : def.tets) {
     const double six = sixVolumes(def.points, t);
@@ -122,59 +90,28 @@ std::vector<Tet> repaired(const TetMeshDef& def, TetMeshReport& report) {
     if (six < 0) std::swap(t[2], t[3]), ++report.inverted;
     kept.push_back(t);
   }
-  std::vector<std::pair<Tet, uint32_t>> names;
-  for (uint32_t i = 0; i < kept.size(); ++i) names.push_back({sorted(kept[i]), i});
-  std::sort(names.begin(), names.end());
-  std::vector<uint8_t> again(kept.size());
-  for (size_t i = 1; i < names.size(); ++i)
-    if (names[i].first == names[i - 1].first) again[names[i].second] = 1, ++report.duplicate;
-  std::vector<Tet> tets;
-  for (uint32_t i = 0; i < kept.size(); ++i)
-    if (!again[i]) tets.push_back(kept[i]);
-  if (tets.empty()) refuse("tets", toText(def.tets.size()) + " tetrahedra", "must have at least one that has volume");
-  report.tets = static_cast<uint32_t>(tets.size());
-  return tets;
+  dropDuplicates(kept, report);
+  if (kept.empty()) refuse("tets", toText(def.tets.size()) + " tetrahedra", "must have at least one that has volume");
+  return kept;
 }
 
 }  // namespace
 
-TetMeshData::TetMeshData() = default;
-TetMeshData::~TetMeshData() = default;
-
-std::shared_ptr<const TetMeshData> makeTetMesh(const TetMeshDef& def) {
-  check(def);
-  const auto mesh = std::make_shared<TetMeshData>();
-  mesh->tets_ = repaired(def, mesh->report_);
-  std::vector<uint32_t> place(def.points.size(), 0);
-  for (const Tet& t : mesh->tets_)
-    for (const uint32_t p : t) place[p] = 1;
-  for (uint32_t i = 0; i < place.size(); ++i) {
-    if (!place[i]) {
-      ++mesh->report_.unused;
-      continue;
-    }
-    place[i] = static_cast<uint32_t>(mesh->points_.size());
-    mesh->points_.push_back(def.points[i]);
-    mesh->sourcePoints_.push_back(i);
-  }
-  for (Tet& t : mesh->tets_)
-    for (uint32_t& p : t) p = place[p];
-  mesh->surface_ = surfaceOf(mesh->tets_);
-  mesh->faceTree_ = std::make_unique<const FaceTree>(mesh->points_, mesh->surface_);
-  mesh->faceSize_ = meanEdge(mesh->points_, mesh->surface_);
-  for (const Tet& t : mesh->tets_) mesh->volume_ += sixVolumes(mesh->points_, t) / 6;
-  Hash64 hash;
-  hash.values(mesh->points_);
-  hash.values(mesh->tets_);
-  mesh->hash_ = hash.digest();
-  return mesh;
+std::shared_ptr<const SoftMeshData> makeTetMesh(const TetMeshDef& def) {
+  check("TetMeshDef", "tets", def.points, def.tets);
+  auto parts = std::make_unique<SoftMeshData::Parts>();
+  parts->tets = repaired(def, parts->report);
+  takePoints(def.points, parts->tets, *parts);
+  parts->surface = surfaceOf(parts->tets);
+  for (const Tet& t : parts->tets) parts->volume += sixVolumes(parts->points, t) / 6;
+  return finish(std::move(parts));
 }
 
-std::shared_ptr<const TetMeshData> makeTetBox(Vec3 h, int nx, int ny, int nz) {
+std::shared_ptr<const SoftMeshData> makeTetBox(Vec3 h, int nx, int ny, int nz) {
   const auto no = [](const char* field, std::string value, const char* range) {
     throw Error("makeTetBox", field, std::move(value), range);
   };
-  if (!(h.x > 0 && h.y > 0 && h.z > 0 && inRange(h.x) && inRange(h.y) && inRange(h.z)))
+  if (!(h.x > 0 && h.y > 0 && h.z > 0 && h.x <= 1e6f && h.y <= 1e6f && h.z <= 1e6f))
     no("h", toText(h), "must be finite and > 0 and at most 1e+06");
   for (const int n : {nx, ny, nz})
     if (n < 1 || n > 1000) no("cells", toText(n), "must be 1 .. 1000");
