@@ -110,7 +110,7 @@ std::vector<Line> collect() {
                            couplingLines,  customLines,   breakLines,   mechanismLines,       treeLines,
                            treeDriveLines, loopLines,     scissorLines, inverseDynamicsLines, ragdollLines,
                            stateLines,     badInputLines, skippedLines, continuousLines,      rollbackLines,
-                           sleepLines,     softLines})
+                           sleepLines,     softLines,     clothLines})
     for (Line& line : group()) list.push_back(std::move(line));
   const auto rank = [](const Line& line) {
     return std::find(kOrder.begin(), kOrder.end(), line.name) - kOrder.begin();

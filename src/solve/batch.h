@@ -75,41 +75,12 @@ struct PairTiles {
   uint32_t tiles = 0;
 };
 
-struct TetTiles {
-  Tile<rows::TetVolume>* tile = nullptr;
+/// What joins four nodes, in tiles of 16: its rows or energy, the body rows of its nodes, and what products need of it.
+template <template <class> class Family, template <class> class Op>
+struct NodeTiles {
+  Tile<Family>* tile = nullptr;
   const uint32_t* node[4] = {};
-  Tile<NodeOp>* op = nullptr;
-  uint32_t tiles = 0;
-};
-
-/// Elements of soft bodies.
-struct ElasticTiles {
-  const Tile<rows::TetElastic>* tile = nullptr;
-  const uint32_t* node[4] = {};
-  Tile<rows::ElasticOp>* op = nullptr;
-  uint32_t tiles = 0;
-};
-
-/// Elements of cloth: the fourth node is a static row.
-struct TriangleTiles {
-  const Tile<rows::TriangleElastic>* tile = nullptr;
-  const uint32_t* node[4] = {};
-  Tile<rows::TriangleOp>* op = nullptr;
-  uint32_t tiles = 0;
-};
-
-struct BendTiles {
-  const Tile<rows::ClothBend>* tile = nullptr;
-  const uint32_t* node[4] = {};
-  Tile<rows::NodeContactOp>* op = nullptr;
-  uint32_t tiles = 0;
-};
-
-/// Contacts of points with faces of soft bodies.
-struct NodeContactTiles {
-  Tile<rows::NodeContact>* tile = nullptr;
-  const uint32_t* node[4] = {};
-  Tile<rows::NodeContactOp>* op = nullptr;
+  Tile<Op>* op = nullptr;
   uint32_t tiles = 0;
 };
 
@@ -175,11 +146,13 @@ struct BatchView {
   PairTiles<rows::FixedJoint> fixed;
   PairTiles<rows::FullContact> full;
   std::span<const SweptContact> swept;  ///< contacts whose rows follow the iterations (swept_contact.h)
-  TetTiles tets;
-  ElasticTiles elastic;
-  TriangleTiles triangles;
-  BendTiles bends;
-  NodeContactTiles nodeContacts;
+  NodeTiles<rows::TetVolume, NodeOp> tets;
+  // Of soft bodies: elements of solids and of cloth, whose fourth node is a static row; hinges; points that touch
+  // faces.
+  NodeTiles<rows::TetElastic, rows::ElasticOp> elastic;
+  NodeTiles<rows::TriangleElastic, rows::TriangleOp> triangles;
+  NodeTiles<rows::ClothBend, rows::NodeContactOp> bends;
+  NodeTiles<rows::NodeContact, rows::NodeContactOp> nodeContacts;
   ScalarJoints scalar;
   LinkedJoints linked;
   Tile<PairOp>* op = nullptr;  ///< contacts, then balls, then fixed, then scalar joints

@@ -157,7 +157,7 @@ class TestBatch {
     return {lanes.tile.data(), lanes.a.data(), lanes.b.data(), static_cast<uint32_t>(tiles)};
   }
 
-  void layOutTets(TetTiles& to) {
+  void layOutTets(NodeTiles<rows::TetVolume, NodeOp>& to) {
     const size_t tiles = (tets.size() + kTile - 1) / kTile;
     tetTile_.resize(tiles), tetOp_.resize(tiles);
     for (int k = 0; k < 4; ++k) tetNode_[k].assign(tiles * kTile, staticRow());

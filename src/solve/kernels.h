@@ -232,9 +232,7 @@ void stampOthers(const BatchView& v, const SolveSettings& s, bool dual) {
   stampPairs<FixedJoint, true>(v, v.fixed, {0, v.fixed.tiles}, op, s.jointLeak, dual);
   stampFull(v, s.contactLeak, dual);
   stampTets(v, dual);
-  stampElastic(v);
-  stampTriangles(v);
-  stampBends(v);
+  stampSofts(v);
   stampNodeContacts(v, s.contactLeak, dual);
 }
 
@@ -306,7 +304,7 @@ void multiplyOthers(const BatchView& v) {
   multiplyPairs(v, v.scalar.a, v.scalar.b, op, {0, v.scalar.tiles});
   multiplyFull(v);
   multiplyTets(v);
-  multiplyElastic(v);
+  multiplySofts(v);
 }
 
 }  // namespace

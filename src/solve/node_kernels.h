@@ -38,80 +38,83 @@ AVBD_INLINE void scatterBlocks(const BatchView& v, NodeRows rows, uint32_t at, c
   scatterNodes(v.hessian, kHessianRow, rows, at, out);
 }
 
-void stampElastic(const BatchView& v) {
-  const ElasticTiles& all = v.elastic;
+/// What an element adds to its nodes, and to the products.
+template <class Op>
+struct ElementStamp {
+  V3<R> gradient[4];
+  Sym3<R> block[4];
+  Op op;
+};
+
+AVBD_INLINE ElementStamp<ElasticOp<R>> stampOf(const TetElastic<R>& tet, const V3<R> (&d)[4]) {
+  ElementStamp<ElasticOp<R>> stamp;
+  const Deformation<R> s = tet.deformation(d);
+  tet.gradient(s, stamp.gradient);
+  stamp.op = tet.op(s);
+  const V3<R> g[4] = {-(tet.gb + tet.gc + tet.gd), tet.gb, tet.gc, tet.gd};
+  for (int i = 0; i < 4; ++i) stamp.block[i] = tet.block(s, g[i]);
+  return stamp;
+}
+
+AVBD_INLINE ElementStamp<TriangleOp<R>> stampOf(const TriangleElastic<R>& triangle, const V3<R> (&d)[4]) {
+  ElementStamp<TriangleOp<R>> stamp;
+  const Stretch<R> s = triangle.stretch(d);
+  triangle.gradient(s, stamp.gradient);
+  stamp.op = triangle.op(s);
+  stamp.block[0] = triangle.block(s, -(triangle.bx + triangle.cx), -(triangle.by + triangle.cy));
+  stamp.block[1] = triangle.block(s, triangle.bx, triangle.by);
+  stamp.block[2] = triangle.block(s, triangle.cx, triangle.cy);
+  stamp.block[3] = diagonal(zeroV3<R>());
+  return stamp;
+}
+
+AVBD_INLINE ElementStamp<NodeContactOp<R>> stampOf(const ClothBend<R>& bend, const V3<R> (&d)[4]) {
+  ElementStamp<NodeContactOp<R>> stamp;
+  bend.gradient(d, stamp.gradient);
+  stamp.op = bend.op();
+  for (int i = 0; i < 4; ++i) stamp.block[i] = stamp.op.stiffness * (bend.weight[i] * bend.weight[i]);
+  return stamp;
+}
+
+template <template <class> class Family, template <class> class Op>
+void stampElements(const BatchView& v, const NodeTiles<Family, Op>& all) {
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
-    const TetElastic<R> tet = all.tile[t].load<N>(o);
-    V3<R> d[4], gradient[4];
+    V3<R> d[4];
     gatherNodes(all.node, v.d, at, d);
-    const Deformation<R> s = tet.deformation(d);
-    tet.gradient(s, gradient);
-    all.op[t].store<N>(o, tet.op(s));
-    scatterVectors(v.gradient, all.node, at, gradient);
-    const V3<R> g[4] = {-(tet.gb + tet.gc + tet.gd), tet.gb, tet.gc, tet.gd};
-    Sym3<R> block[4];
-    for (int i = 0; i < 4; ++i) block[i] = tet.block(s, g[i]);
-    scatterBlocks(v, all.node, at, block);
+    const auto stamp = stampOf(all.tile[t].template load<N>(o), d);
+    all.op[t].template store<N>(o, stamp.op);
+    scatterVectors(v.gradient, all.node, at, stamp.gradient);
+    scatterBlocks(v, all.node, at, stamp.block);
   });
 }
 
-void stampTriangles(const BatchView& v) {
-  const TriangleTiles& all = v.triangles;
-  forLanes({0, all.tiles}, [&](uint32_t t, int o) {
-    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
-    const TriangleElastic<R> triangle = all.tile[t].load<N>(o);
-    V3<R> d[4], gradient[4];
-    gatherNodes(all.node, v.d, at, d);
-    const Stretch<R> s = triangle.stretch(d);
-    triangle.gradient(s, gradient);
-    all.op[t].store<N>(o, triangle.op(s));
-    scatterVectors(v.gradient, all.node, at, gradient);
-    const Sym3<R> block[4] = {triangle.block(s, -(triangle.bx + triangle.cx), -(triangle.by + triangle.cy)),
-                              triangle.block(s, triangle.bx, triangle.by), triangle.block(s, triangle.cx, triangle.cy),
-                              diagonal(zeroV3<R>())};
-    scatterBlocks(v, all.node, at, block);
-  });
+void stampSofts(const BatchView& v) {
+  stampElements(v, v.elastic);
+  stampElements(v, v.triangles);
+  stampElements(v, v.bends);
 }
 
-void stampBends(const BatchView& v) {
-  const BendTiles& all = v.bends;
+template <template <class> class Family, template <class> class Op>
+void multiplyElements(const BatchView& v, const NodeTiles<Family, Op>& all) {
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
-    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
-    const ClothBend<R> bend = all.tile[t].load<N>(o);
-    V3<R> d[4], gradient[4];
-    gatherNodes(all.node, v.d, at, d);
-    bend.gradient(d, gradient);
-    const NodeContactOp<R> op = bend.op();
-    all.op[t].store<N>(o, op);
-    scatterVectors(v.gradient, all.node, at, gradient);
-    Sym3<R> block[4];
-    for (int i = 0; i < 4; ++i) block[i] = op.stiffness * (bend.weight[i] * bend.weight[i]);
-    scatterBlocks(v, all.node, at, block);
-  });
-}
-
-/// Of elements of any kind that multiply() knows.
-template <template <class> class Op>
-void multiplyElements(const BatchView& v, NodeRows rows, const Tile<Op>* op, uint32_t tiles) {
-  forLanes({0, tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     V3<R> p[4], out[4];
-    gatherNodes(rows, v.p, at, p);
-    multiply(op[t].template load<N>(o), p, out);
-    scatterVectors(v.q, rows, at, out);
+    gatherNodes(all.node, v.p, at, p);
+    multiply(all.op[t].template load<N>(o), p, out);
+    scatterVectors(v.q, all.node, at, out);
   });
 }
 
-void multiplyElastic(const BatchView& v) {
-  multiplyElements<ElasticOp>(v, v.elastic.node, v.elastic.op, v.elastic.tiles);
-  multiplyElements<TriangleOp>(v, v.triangles.node, v.triangles.op, v.triangles.tiles);
-  multiplyElements<NodeContactOp>(v, v.bends.node, v.bends.op, v.bends.tiles);
-  multiplyElements<NodeContactOp>(v, v.nodeContacts.node, v.nodeContacts.op, v.nodeContacts.tiles);
+void multiplySofts(const BatchView& v) {
+  multiplyElements(v, v.elastic);
+  multiplyElements(v, v.triangles);
+  multiplyElements(v, v.bends);
+  multiplyElements(v, v.nodeContacts);
 }
 
 void prepareNodeContacts(const BatchView& v, float factor) {
-  const NodeContactTiles& all = v.nodeContacts;
+  const auto& all = v.nodeContacts;
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     NodeContact<R> c = all.tile[t].load<N>(o);
@@ -125,7 +128,7 @@ void prepareNodeContacts(const BatchView& v, float factor) {
 }
 
 void stampNodeContacts(const BatchView& v, float leak, bool dual) {
-  const NodeContactTiles& all = v.nodeContacts;
+  const auto& all = v.nodeContacts;
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     NodeContact<R> c = all.tile[t].load<N>(o);
@@ -152,7 +155,7 @@ void stampNodeContacts(const BatchView& v, float leak, bool dual) {
 }
 
 void dualNodeContacts(const BatchView& v, float leak) {
-  const NodeContactTiles& all = v.nodeContacts;
+  const auto& all = v.nodeContacts;
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
     NodeContact<R> c = all.tile[t].load<N>(o);
     V3<R> d[4];

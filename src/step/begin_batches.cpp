@@ -282,26 +282,16 @@ BatchView StepData::view(size_t index) {
             b.fullTiles};
   v.swept = {sweptLanes.data() + b.sweptBegin, b.sweptCount};
   v.fullOp = fullOp.data() + b.fullTile;
-  v.tets.tile = tets.data() + b.tetTile;
-  v.tets.op = tetOp.data() + b.tetTile;
-  v.tets.tiles = b.tetTiles;
-  for (int i = 0; i < 4; ++i) v.tets.node[i] = tetRow[i].data() + b.tetTile * kTile;
-  v.elastic.tile = elastic.data() + b.elasticTile;
-  v.elastic.op = elasticOp.data() + b.elasticTile;
-  v.elastic.tiles = b.elasticTiles;
-  for (int i = 0; i < 4; ++i) v.elastic.node[i] = elasticRow[i].data() + b.elasticTile * kTile;
-  v.triangles.tile = triangleTiles.data() + b.triangleTile, v.triangles.op = triangleOp.data() + b.triangleTile;
-  v.triangles.tiles = b.triangleTiles;
-  v.bends.tile = bendTiles.data() + b.bendTile, v.bends.op = bendOp.data() + b.bendTile;
-  v.bends.tiles = b.bendTiles;
-  for (int i = 0; i < 4; ++i) {
-    v.triangles.node[i] = triangleRow[i].data() + b.triangleTile * kTile;
-    v.bends.node[i] = bendRow[i].data() + b.bendTile * kTile;
-  }
-  v.nodeContacts.tile = touchTiles.data() + b.touchTile;
-  v.nodeContacts.op = touchOp.data() + b.touchTile;
-  v.nodeContacts.tiles = b.touchTiles;
-  for (int i = 0; i < 4; ++i) v.nodeContacts.node[i] = touchRow[i].data() + b.touchTile * kTile;
+  const auto nodes = [](auto& out, auto& tiles, auto& ops, const std::vector<uint32_t>(&rows)[4], uint32_t begin,
+                        uint32_t count) {
+    out = {tiles.data() + begin, {}, ops.data() + begin, count};
+    for (int i = 0; i < 4; ++i) out.node[i] = rows[i].data() + size_t(begin) * kTile;
+  };
+  nodes(v.tets, tets, tetOp, tetRow, b.tetTile, b.tetTiles);
+  nodes(v.elastic, elastic, elasticOp, elasticRow, b.elasticTile, b.elasticTiles);
+  nodes(v.triangles, triangleTiles, triangleOp, triangleRow, b.triangleTile, b.triangleTiles);
+  nodes(v.bends, bendTiles, bendOp, bendRow, b.bendTile, b.bendTiles);
+  nodes(v.nodeContacts, touchTiles, touchOp, touchRow, b.touchTile, b.touchTiles);
   v.locked = lockedRows.data() + b.lockedBegin, v.locks = locks.data() + b.lockedBegin;
   v.lockedCount = b.lockedCount;
   return v;

@@ -180,11 +180,9 @@ class PairSearch {
 
 /// Bodies by their lower ends along x, in the frame of the first of them.
 void sweep(const WorldData& world, StepData& step) {
-  struct End {
-    double lower, upper;
-    uint32_t slot;
-  };
-  std::vector<End> ends;
+  using End = StepData::SoftEnds;
+  std::vector<End>& ends = step.softEnds;
+  ends.clear();
   world.softIds.forEach([&](uint32_t slot) {
     const Place& place = step.softPlaces[slot];
     const float grown = 2 * world.softs[slot].radius + reachOf(world, world.softs[slot]);

@@ -281,6 +281,12 @@ struct StepData {
     float fastest = 0;         ///< [m/s] of its particles
   };
   std::vector<SoftPlace> softPlaces;  ///< by slot
+  /// Of a body along x.
+  struct SoftEnds {
+    double lower, upper;
+    uint32_t slot;
+  };
+  std::vector<SoftEnds> softEnds;
   struct FoundTouch {
     SoftTouch touch;
     Vec3 weights;  ///< of the face's corners, where the point is nearest
