@@ -125,6 +125,13 @@ Pose Build::inBody(BodyId id, const Pose& at) const {
   return {rotate(back, at.position - p.position), back * at.rotation};
 }
 
+SoftId Build::soft(const std::string& name, const SoftDef& def) {
+  const SoftId id = model_.world.create(def);
+  const std::vector<BodyId> particles = model_.world.particles(id);
+  for (size_t i = 0; i < particles.size(); ++i) model_.bodies.push_back({particles[i], name + "_" + std::to_string(i)});
+  return id;
+}
+
 JointId Build::joint(BodyId a, BodyId b, Vec3d at) {
   BallJoint def;
   def.bodyA = a;

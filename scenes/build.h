@@ -29,6 +29,8 @@ class Build {
   BodyId box(std::string name, Box half, Vec3d at, float mass, Velocity velocity = {}, Quat rotation = {});
   BodyId add(std::string name, BodyDef def);
   BodyId ball(std::string name, float radius, Vec3d at, float mass, Velocity velocity = {});
+  /// A soft body whose particles are named by it and a number.
+  SoftId soft(const std::string& name, const SoftDef& def);
   /// A ball joint at a world point; a null body is the world.
   JointId joint(BodyId a, BodyId b, Vec3d at);
   /// `def` between two bodies, both its frames at this world pose; a null body is the world.

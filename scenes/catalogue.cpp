@@ -128,6 +128,7 @@ const std::vector<Scene>& all() {
     append(list, chainScenes());
     append(list, stackScenes());
     append(list, netScenes());
+    append(list, softScenes());
     append(list, scissorScenes());
     append(list, ragdollScenes());
     append(list, sleeperScenes());

@@ -9,6 +9,7 @@ std::vector<Scene> pileScenes();
 std::vector<Scene> stackScenes();
 std::vector<Scene> chainScenes();
 std::vector<Scene> netScenes();
+std::vector<Scene> softScenes();
 std::vector<Scene> scissorScenes();
 std::vector<Scene> ragdollScenes();
 std::vector<Scene> sleeperScenes();
