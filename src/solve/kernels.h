@@ -205,8 +205,8 @@ void stampTets(const BatchView& v, bool dual) {
     }
     op.k = sink.k;
     v.tets.op[t].store<N>(o, op);
-    scatterNodes(v.gradient, 8, v.tets.node, at, gradient);
-    scatterNodes(v.hessian, kHessianRow, v.tets.node, at, block);
+    scatterNodes<4>(v.gradient, 8, v.tets.node, at, gradient);
+    scatterNodes<4>(v.hessian, kHessianRow, v.tets.node, at, block);
   });
 }
 
@@ -289,7 +289,7 @@ void multiplyTets(const BatchView& v) {
       const V3<R> f = op.lin[i] * force;
       value[i][0] = f.x, value[i][1] = f.y, value[i][2] = f.z;
     }
-    scatterNodes(v.q, 8, v.tets.node, at, value);
+    scatterNodes<4>(v.q, 8, v.tets.node, at, value);
   });
 }
 

@@ -7,35 +7,50 @@ namespace {
 using NodeRows = const uint32_t* const (&)[4];  ///< body rows of the four nodes, by lane
 
 AVBD_INLINE void gatherNodes(NodeRows rows, const float* array, uint32_t at, V3<R> (&node)[4]) {
-  for (int i = 0; i < 4; ++i) node[i] = gatherTwist<N>(array, rows[i] + at).lin;
+  for (int i = 0; i < 4; ++i) {
+    R linear[4];
+    lane::gatherRows<N>(array, 8, rows[i] + at, linear);
+    node[i] = {linear[0], linear[1], linear[2]};
+  }
 }
 
 /// Adds K values a node to rows of an array, lane after lane and node after node.
-template <int K>
+template <int nodes, int K>
 AVBD_INLINE void scatterNodes(float* array, int stride, NodeRows rows, uint32_t at, const R (&value)[4][K]) {
-  alignas(64) float lanes[4][K][N];
-  for (int i = 0; i < 4; ++i)
+  alignas(64) float lanes[nodes][K][N];
+  for (int i = 0; i < nodes; ++i)
     for (int k = 0; k < K; ++k) lane::store(lanes[i][k], value[i][k]);
   for (uint32_t l = 0; l < N; ++l)
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < nodes; ++i)
       for (int k = 0; k < K; ++k) array[size_t(rows[i][at + l]) * static_cast<size_t>(stride) + k] += lanes[i][k][l];
 }
 
+/// The same of the linear parts of body rows, of the first `nodes` nodes.
+template <int nodes>
 AVBD_INLINE void scatterVectors(float* array, NodeRows rows, uint32_t at, const V3<R> (&value)[4]) {
-  R out[4][3];
-  for (int i = 0; i < 4; ++i) out[i][0] = value[i].x, out[i][1] = value[i].y, out[i][2] = value[i].z;
-  scatterNodes(array, 8, rows, at, out);
+  using Row = lane::Wide<4>;
+  alignas(64) float lanes[nodes][N][4];
+  for (int i = 0; i < nodes; ++i) {
+    const R columns[4] = {value[i].x, value[i].y, value[i].z, zero<R>()};
+    lane::storeRows<N>(lanes[i][0], 4, columns);
+  }
+  for (uint32_t l = 0; l < N; ++l)
+    for (int i = 0; i < nodes; ++i) {
+      float* row = array + size_t(8) * rows[i][at + l];
+      lane::store(row, lane::load<Row>(row) + lane::load<Row>(lanes[i][l]));
+    }
 }
 
 /// Of the nodes' blocks of 3 x 3.
+template <int nodes>
 AVBD_INLINE void scatterBlocks(const BatchView& v, NodeRows rows, uint32_t at, const Sym3<R> (&block)[4]) {
   R out[4][6];
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < nodes; ++i) {
     const Sym3<R>& m = block[i];
     const R entries[6] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
     for (int k = 0; k < 6; ++k) out[i][k] = entries[k];
   }
-  scatterNodes(v.hessian, kHessianRow, rows, at, out);
+  scatterNodes<nodes>(v.hessian, kHessianRow, rows, at, out);
 }
 
 /// What an element adds to its nodes, and to the products.
@@ -84,8 +99,8 @@ void stampElements(const BatchView& v, const NodeTiles<Family, Op>& all) {
     gatherNodes(all.node, v.d, at, d);
     const auto stamp = stampOf(all.tile[t].template load<N>(o), d);
     all.op[t].template store<N>(o, stamp.op);
-    scatterVectors(v.gradient, all.node, at, stamp.gradient);
-    scatterBlocks(v, all.node, at, stamp.block);
+    scatterVectors<Family<R>::kBlocks>(v.gradient, all.node, at, stamp.gradient);
+    scatterBlocks<Family<R>::kBlocks>(v, all.node, at, stamp.block);
   });
 }
 
@@ -102,7 +117,7 @@ void multiplyElements(const BatchView& v, const NodeTiles<Family, Op>& all) {
     V3<R> p[4], out[4];
     gatherNodes(all.node, v.p, at, p);
     multiply(all.op[t].template load<N>(o), p, out);
-    scatterVectors(v.q, all.node, at, out);
+    scatterVectors<Family<R>::kBlocks>(v.q, all.node, at, out);
   });
 }
 
@@ -149,8 +164,8 @@ void stampNodeContacts(const BatchView& v, float leak, bool dual) {
       gradient[i] = sink.wrench.lin * c.weight[i];
       block[i] = op.stiffness * (c.weight[i] * c.weight[i]);
     }
-    scatterVectors(v.gradient, all.node, at, gradient);
-    scatterBlocks(v, all.node, at, block);
+    scatterVectors<4>(v.gradient, all.node, at, gradient);
+    scatterBlocks<4>(v, all.node, at, block);
   });
 }
 
