@@ -145,6 +145,12 @@ TEST(Soft, WhatIsNoneIsRefusedByName) {
   expectRefused({.pose = {{}, {0, 0, 0, 0}}}, "pose");
   expectRefused({.velocity = {{nan, 0, 0}, {}}}, "velocity");
   expectRefused({.surface = {.friction = -1}}, "surface");
+  expectRefused({.material = {.thickness = 0}}, "thickness");
+  expectRefused({.material = {.bending = nan}}, "bending");
+  // Of some particle alone.
+  expectRefused({.pose = {{1e9, 0, 0}, {}}}, "pose");
+  expectRefused({.velocity = {{1e9f, 0, 0}, {0, 1e6f, 0}}}, "velocity");
+  expectRefused({.material = {.density = 1e-20f}, .radius = 1e-6f}, "radius");
 }
 
 /// How far the end of a strip of 0.2 m sinks that is clamped at the other, of what a plate does.

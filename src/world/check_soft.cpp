@@ -1,6 +1,9 @@
 // Soft bodies (check.h).
+#include <cmath>
+
 #include "world/check.h"
 #include "world/limits.h"
+#include "world/rotation.h"
 #include "world/soft.h"
 
 namespace avbd {
@@ -17,6 +20,32 @@ void checkSoftMaterial(const Path& path, const SoftMaterial& material, float uni
   check(path / "bending", material.bending, symmetric(kMaxModulus));
 }
 
+/// What each particle will be: a body in the range that the solver can work with.
+void checkParticles(const Path& path, const SoftDef& def, float unit) {
+  const double farthest = kMaxPosition * double{unit}, fastest = kMaxSpeed * double{unit};
+  const auto isIn = [](Vec3d v, double bound) {
+    return std::fabs(v.x) <= bound && std::fabs(v.y) <= bound && std::fabs(v.z) <= bound;
+  };
+  for (const float mass : softMasses(*def.mesh, def.material)) {
+    if (!(mass >= kMinMass && mass <= kMaxMass))
+      (path / "material" / "density")
+          .refuse(toText(def.material.density),
+                  "must give each point a mass of " + toText(kMinMass) + " to " + toText(kMaxMass) + " kg");
+    const float inertia = particleInertia(mass, def.radius);
+    if (!(inertia >= kMinInertia && inertia <= kMaxInertia))
+      (path / "radius")
+          .refuse(toText(def.radius), "must give each point, as a ball, a moment of inertia of " + toText(kMinInertia) +
+                                          " to " + toText(kMaxInertia) + " kg m^2");
+  }
+  for (const Vec3 point : def.mesh->points()) {
+    const Vec3d arm = rotate(def.pose.rotation, toDouble(point));
+    if (!isIn(def.pose.position + arm, farthest))
+      (path / "pose").refuse(toText(def.pose.position), "must keep all points within +-" + toText(farthest));
+    if (!isIn(toDouble(def.velocity.linear + cross(def.velocity.angular, toFloat(arm))), fastest))
+      (path / "velocity").refuse(toText(def.velocity.angular), "must keep all points below " + toText(fastest));
+  }
+}
+
 }  // namespace
 
 SoftDef checkedSoft(const WorldData& data, const SoftDef& def) {
@@ -29,11 +58,7 @@ SoftDef checkedSoft(const WorldData& data, const SoftDef& def) {
   checkVelocity(path / "velocity", def.velocity, unit);
   SoftDef checked = def;
   checked.pose = checkedPose(path / "pose", def.pose, kMaxPosition * unit);
-  for (const float mass : softMasses(*def.mesh, def.material))
-    if (!(mass >= kMinMass && mass <= kMaxMass))
-      (path / "material" / "density")
-          .refuse(toText(def.material.density),
-                  "must give each point a mass of " + toText(kMinMass) + " to " + toText(kMaxMass) + " kg");
+  checkParticles(path, checked, unit);
   return checked;
 }
 

@@ -23,13 +23,12 @@ Edges edgesAtRest(const SoftMeshData& mesh, size_t tet) {
   return {at(1) - at(0), at(2) - at(0), at(3) - at(0)};
 }
 
-/// A particle does not turn, but a body has an inertia: that of a ball.
 BodyDef particleOf(const SoftDef& def, Vec3 point, float mass) {
   const Vec3d arm = rotate(def.pose.rotation, toDouble(point));
   BodyDef body;
   body.position = def.pose.position + arm;
   body.linearVelocity = def.velocity.linear + cross(def.velocity.angular, toFloat(arm));
-  const float inertia = 0.4f * mass * def.radius * def.radius;
+  const float inertia = particleInertia(mass, def.radius);
   body.massProperties = MassProperties{mass, {}, {inertia, inertia, inertia, 0, 0, 0}};
   body.continuous = false;
   body.canSleep = def.canSleep;

@@ -13,6 +13,8 @@ uint32_t addSoft(WorldData& data, const SoftDef& def);
 void removeSoft(WorldData& data, uint32_t slot);  ///< with its particles
 /// Of each point a quarter of the tetrahedra that it is in, a third of the triangles [kg].
 std::vector<float> softMasses(const SoftMeshData& mesh, const SoftMaterial& material);
+/// A particle does not turn, but a body has an inertia [kg m^2]: that of a ball.
+inline float particleInertia(float mass, float radius) { return 0.4f * mass * radius * radius; }
 double volumeOf(const WorldData& data, const SoftData& soft);  ///< [m^3] now
 
 /// Lame's parameters as the energy takes them (rows/tet_elastic.h) [Pa].
