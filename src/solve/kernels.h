@@ -195,29 +195,11 @@ void stampTets(const BatchView& v, bool dual) {
     BlockStampSink<R, 4> sink;
     tet.rows(d, sink);
     NodeOp<R> op;
-    R gradient[4][3], block[4][6];
-    for (int i = 0; i < 4; ++i) {
-      op.lin[i] = sink.lin[i];
-      const Sym3<R>& m = sink.diagonal[i];
-      const R entries[6] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
-      for (int k = 0; k < 6; ++k) block[i][k] = entries[k];
-      gradient[i][0] = sink.gradient[i].x, gradient[i][1] = sink.gradient[i].y, gradient[i][2] = sink.gradient[i].z;
-    }
+    for (int i = 0; i < 4; ++i) op.lin[i] = sink.lin[i];
     op.k = sink.k;
     v.tets.op[t].store<N>(o, op);
-    scatterNodes<4>(v.gradient, 8, v.tets.node, at, gradient);
-    scatterNodes<4>(v.hessian, kHessianRow, v.tets.node, at, block);
-  });
-}
-
-void dualTets(const BatchView& v) {
-  forLanes({0, v.tets.tiles}, [&](uint32_t t, int o) {
-    TetVolume<R> tet = v.tets.tile[t].load<N>(o);
-    V3<R> d[4];
-    gatherNodes(v.tets.node, v.d, t * kTile + static_cast<uint32_t>(o), d);
-    BlockDualSink<R, 4> sink{splat<R>(1)};
-    tet.rows(d, sink);
-    v.tets.tile[t].store<N>(o, tet);
+    scatterVectors<4>(v.gradient, v.tets.node, at, sink.gradient);
+    scatterBlocks<4>(v, v.tets.node, at, sink.diagonal);
   });
 }
 
@@ -245,7 +227,7 @@ void updateOthers(const BatchView& v, const SolveSettings& s) {
   dualPairs(v, v.fixed, {0, v.fixed.tiles}, 1);
   dualPairs(v, v.full, {0, v.full.tiles}, s.contactLeak);
   dualTets(v);
-  dualNodeContacts(v, s.contactLeak);
+  dualNodes(v, v.nodeContacts, DualSink<R>{splat<R>(s.contactLeak)});
 }
 
 // ---- Products with H -------------------------------------------------------------------------------------------
@@ -275,24 +257,6 @@ void multiplyFull(const BatchView& v) {
   });
 }
 
-void multiplyTets(const BatchView& v) {
-  forLanes({0, v.tets.tiles}, [&](uint32_t t, int o) {
-    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
-    const NodeOp<R> op = v.tets.op[t].load<N>(o);
-    V3<R> p[4];
-    gatherNodes(v.tets.node, v.p, at, p);
-    R sum = zero<R>();
-    for (int i = 0; i < 4; ++i) sum = sum + dot(op.lin[i], p[i]);
-    const R force = sum * op.k;
-    R value[4][3];
-    for (int i = 0; i < 4; ++i) {
-      const V3<R> f = op.lin[i] * force;
-      value[i][0] = f.x, value[i][1] = f.y, value[i][2] = f.z;
-    }
-    scatterNodes<4>(v.q, 8, v.tets.node, at, value);
-  });
-}
-
 void multiplyContacts(const BatchView& v, Slice tiles) { multiplyPairs(v, v.contacts.a, v.contacts.b, v.op, tiles); }
 
 void multiplyOthers(const BatchView& v) {
@@ -303,7 +267,7 @@ void multiplyOthers(const BatchView& v) {
   op += v.fixed.tiles;
   multiplyPairs(v, v.scalar.a, v.scalar.b, op, {0, v.scalar.tiles});
   multiplyFull(v);
-  multiplyTets(v);
+  multiplyElements(v, v.tets);
   multiplySofts(v);
 }
 

@@ -110,6 +110,14 @@ void stampSofts(const BatchView& v) {
   stampElements(v, v.bends);
 }
 
+/// H p of a row over four nodes.
+AVBD_INLINE void multiply(const NodeOp<R>& op, const V3<R> (&p)[4], V3<R> (&out)[4]) {
+  R sum = zero<R>();
+  for (int i = 0; i < 4; ++i) sum = sum + dot(op.lin[i], p[i]);
+  const R force = sum * op.k;
+  for (int i = 0; i < 4; ++i) out[i] = op.lin[i] * force;
+}
+
 template <template <class> class Family, template <class> class Op>
 void multiplyElements(const BatchView& v, const NodeTiles<Family, Op>& all) {
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
@@ -169,17 +177,19 @@ void stampNodeContacts(const BatchView& v, float leak, bool dual) {
   });
 }
 
-void dualNodeContacts(const BatchView& v, float leak) {
-  const auto& all = v.nodeContacts;
+/// Dual update of rows over four nodes.
+template <template <class> class Family, template <class> class Op, class Sink>
+void dualNodes(const BatchView& v, const NodeTiles<Family, Op>& all, Sink sink) {
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
-    NodeContact<R> c = all.tile[t].load<N>(o);
+    Family<R> rows = all.tile[t].template load<N>(o);
     V3<R> d[4];
     gatherNodes(all.node, v.d, t * kTile + static_cast<uint32_t>(o), d);
-    DualSink<R> sink{splat<R>(leak)};
-    c.rows(d, sink);
-    all.tile[t].store<N>(o, c);
+    rows.rows(d, sink);
+    all.tile[t].template store<N>(o, rows);
   });
 }
+
+void dualTets(const BatchView& v) { dualNodes(v, v.tets, BlockDualSink<R, 4>{splat<R>(1)}); }
 
 }  // namespace
 }  // namespace avbd::AVBD_LANES_NAMESPACE

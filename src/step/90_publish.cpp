@@ -15,8 +15,6 @@ namespace avbd {
 
 namespace {
 
-constexpr float kSlipping = 0.999f;  ///< of the cone: a friction force beyond it belongs to a point that slips
-
 void publishBodies(WorldData& world, const StepData& step) {
   world.lastSubstep = step.h;
   step.jobs->forRange(static_cast<uint32_t>(step.order.size()), 256, [&](uint32_t begin, uint32_t end, int) {
@@ -51,12 +49,6 @@ AVBD_INLINE Forces forcesOf(const rows::Contact<float>& c) {
     forces.t1[i] = c.point[i].lambda1, forces.t2[i] = c.point[i].lambda2, forces.mu[i] = c.point[i].mu;
   }
   return forces;
-}
-
-bool insideCone(Vec3 lambda, float mu) {
-  const float friction = lambda.y * lambda.y + lambda.z * lambda.z;
-  const float bound = kSlipping * mu * lambda.x;
-  return friction < bound * bound;
 }
 
 /// The velocity pass pushes too. `next`: in step.bounces, which has the contacts in the order in which they come here.

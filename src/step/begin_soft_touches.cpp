@@ -11,8 +11,7 @@ namespace avbd {
 
 namespace {
 
-constexpr float kMost = 2;           ///< as of contacts of bodies: bound of the load's stiffness [island masses / h^2]
-constexpr float kSlipping = 0.999f;  ///< likewise: of the cone
+constexpr float kMost = 2;  ///< as of contacts of bodies: bound of the load's stiffness [island masses / h^2]
 
 const Material& surfaceOf(const WorldData& world, uint32_t body) {
   return world.shapes[world.bodies[body].firstShape].material;
@@ -71,8 +70,7 @@ void publishSoftTouches(WorldData& world, const StepData& step) {
     const rows::NodeContact<float> c = step.touchTiles[lane / kTile].get(static_cast<int>(lane % kTile));
     SoftTouch& touch = world.softTouches[step.touchLane[lane]];
     touch.lambda = {c.lambdaN, c.lambda1, c.lambda2};
-    const float friction = c.lambda1 * c.lambda1 + c.lambda2 * c.lambda2, bound = kSlipping * c.mu * c.lambdaN;
-    touch.sticks = friction < bound * bound ? 1 : 0;
+    touch.sticks = insideCone(touch.lambda, c.mu) ? 1 : 0;
     touch.slides = touch.sticks ? uint8_t{0} : static_cast<uint8_t>(std::min(touch.slides + 1, 255));
   }
 }

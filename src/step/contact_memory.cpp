@@ -54,12 +54,9 @@ TouchBasis basisOf(Vec3 normal) {
 }
 
 void turnBasis(PairData& pair) {
-  const rows::V3<float> n{pair.manifold.normal.x, pair.manifold.normal.y, pair.manifold.normal.z};
-  rows::V3<float> t1, t2;
-  rows::orthonormalBasis(n, t1, t2);
+  const TouchBasis basis = basisOf(pair.manifold.normal);
   pair.normal = pair.manifold.normal;
-  pair.t1 = {t1.x, t1.y, t1.z};
-  pair.t2 = {t2.x, t2.y, t2.z};
+  pair.t1 = basis.t1, pair.t2 = basis.t2;
 }
 
 PointMeans& meansOf(WorldData& world, PairData& pair) {

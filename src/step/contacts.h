@@ -69,6 +69,15 @@ inline float normalBias(const WorldData& world, const StepData& step, float sepa
   return std::min((1 - step.alpha) * -gap, world.def.maxDepenetrationSpeed * step.h);
 }
 
+inline constexpr float kSlipping = 0.999f;  ///< of the cone: a friction force beyond it belongs to a point that slips
+
+/// Whether a point's force (normal, t1, t2) says that it sticks.
+inline bool insideCone(Vec3 lambda, float mu) {
+  const float friction = lambda.y * lambda.y + lambda.z * lambda.z;
+  const float bound = kSlipping * mu * lambda.x;
+  return friction < bound * bound;
+}
+
 /// Across a normal, as the rows of a contact take it.
 struct TouchBasis {
   Vec3 t1, t2;
