@@ -57,6 +57,7 @@ class SoftMeshData {
 
   struct Parts;  ///< src/geom
   explicit SoftMeshData(std::unique_ptr<const Parts> parts);
+  const Parts& parts() const { return *parts_; }
 
  private:
   std::unique_ptr<const Parts> parts_;

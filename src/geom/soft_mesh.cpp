@@ -97,6 +97,7 @@ template void takePoints(std::span<const Vec3>, std::vector<std::array<uint32_t,
 
 std::shared_ptr<const SoftMeshData> finish(std::unique_ptr<SoftMeshData::Parts> parts) {
   SoftMeshData::Parts& p = *parts;
+  findRest(p);
   p.faceTree = std::make_unique<const FaceTree>(p.points, p.surface);
   double edges = 0;
   for (const auto& face : p.surface) {

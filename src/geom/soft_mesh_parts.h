@@ -10,12 +10,31 @@
 
 namespace avbd {
 
+/// A tetrahedron at rest.
+struct TetAtRest {
+  Vec3 gb, gc, gd;   ///< gradients of the weights of corners 1 to 3 [1/m]
+  float volume = 0;  ///< [m^3]
+};
+
+struct TriangleAtRest {
+  float bx = 0, by = 0, cx = 0, cy = 0;  ///< gradients of the weights of corners 1 and 2, in the plane [1/m]
+  float area = 0;                        ///< [m^2]
+};
+
+struct HingeAtRest {
+  std::array<float, 4> weight{};  ///< of bending (rows/cloth_bend.h)
+  float areas = 0;                ///< [m^2] of both triangles
+};
+
 struct SoftMeshData::Parts {
   SoftMeshReport report;
   std::vector<Vec3> points;
   std::vector<std::array<uint32_t, 4>> tets, hinges;
   std::vector<std::array<uint32_t, 3>> triangles, surface;
   std::vector<uint32_t> sourcePoints;
+  std::vector<TetAtRest> tetsAtRest;
+  std::vector<TriangleAtRest> trianglesAtRest;
+  std::vector<HingeAtRest> hingesAtRest;
   std::unique_ptr<const FaceTree> faceTree;
   float faceSize = 0;
   double volume = 0, area = 0;
@@ -24,7 +43,6 @@ struct SoftMeshData::Parts {
 
 namespace soft_mesh {
 
-using Point3 = Vec3d;
 inline Vec3d crossOf(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
 inline constexpr double kFlat = 1e-5;  ///< [of the longest edge] least height of an element
@@ -41,6 +59,8 @@ void dropDuplicates(std::vector<std::array<uint32_t, n>>& elements, SoftMeshRepo
 template <size_t n>
 void takePoints(std::span<const Vec3> points, std::vector<std::array<uint32_t, n>>& elements,
                 SoftMeshData::Parts& parts);
+/// Fills what elements and hinges are at rest.
+void findRest(SoftMeshData::Parts& parts);
 /// What follows from points, elements and surface.
 std::shared_ptr<const SoftMeshData> finish(std::unique_ptr<SoftMeshData::Parts> parts);
 

@@ -2,24 +2,20 @@
 // negative; no turn costs anything; every width gives the bits of float.
 #include "avbd/rows/tet_elastic.h"
 
-#include <avbd/types.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <random>
 
 #include "lane/tile.h"
+#include "solve/elastic_cases.h"
 
 namespace avbd::rows {
 namespace {
 
 using Points = std::array<Vec3d, 4>;
 using V = V3<float>;
-
-V toFloat3(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-Vec3d crossOf(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
 const Points kRest = {Vec3d{0, 0, 0}, {1, 0.1, 0}, {0.2, 1.1, -0.1}, {0.1, 0.3, 0.9}};
 
@@ -53,13 +49,8 @@ struct Element {
   }
 };
 
-std::mt19937 generator(5);
-Points moved(double size) {
-  std::uniform_real_distribution<double> draw(-size, size);
-  Points x = kRest;
-  for (Vec3d& p : x) p = p + Vec3d{draw(generator), draw(generator), draw(generator)};
-  return x;
-}
+ElementDraws draws;
+Points moved(double size) { return draws.moved(kRest, size); }
 
 std::array<V, 4> gradientAt(const Element& e, const Points& x) {
   const V none[4] = {};
@@ -74,9 +65,6 @@ ElasticOp<float> opAt(const Element& e, const Points& x) {
   const TetElastic<float> rows = e.rows(x);
   return rows.op(rows.deformation(none));
 }
-
-double& axisOf(Vec3d& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
-float axisOf(const V& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
 
 TEST(TetElastic, GradientIsTheDerivativeOfTheEnergy) {
   const Element e;
@@ -124,10 +112,7 @@ std::array<V, 4> slope(const Element& e, const Points& x, const V (&p)[4]) {
   return out;
 }
 
-void draw(V (&p)[4]) {
-  std::uniform_real_distribution<float> number(-1, 1);
-  for (V& v : p) v = {number(generator), number(generator), number(generator)};
-}
+void draw(V (&p)[4]) { draws.draw(p); }
 
 TEST(TetElastic, HessianIsTheDerivativeOfTheGradientInAStretchedBar) {
   // No stress sideways: the curvature of J is taken whole.

@@ -2,24 +2,20 @@
 // negative; no turn costs anything, and out of its plane an unstrained sheet has no stiffness.
 #include "avbd/rows/triangle_elastic.h"
 
-#include <avbd/types.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <random>
 
 #include "lane/tile.h"
+#include "solve/elastic_cases.h"
 
 namespace avbd::rows {
 namespace {
 
 using Points = std::array<Vec3d, 3>;
 using V = V3<float>;
-
-V toFloat3(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-Vec3d crossOf(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
 const Points kRest = {Vec3d{0, 0, 0}, {1.2, 0, 0}, {0.3, 0.9, 0}};
 constexpr double kMu = 3, kLambda = 7;
@@ -40,13 +36,8 @@ double energy(const Points& x) {
   return kMu / 2 * (dot(f0, f0) + dot(f1, f1) - 2) + kLambda / 2 * off * off;
 }
 
-std::mt19937 generator(5);
-Points moved(double size) {
-  std::uniform_real_distribution<double> draw(-size, size);
-  Points x = kRest;
-  for (Vec3d& p : x) p = p + Vec3d{draw(generator), draw(generator), draw(generator)};
-  return x;
-}
+ElementDraws draws;
+Points moved(double size) { return draws.moved(kRest, size); }
 
 std::array<V, 4> gradientAt(const Points& x) {
   const V none[4] = {};
@@ -62,13 +53,7 @@ TriangleOp<float> opAt(const Points& x) {
   return rows.op(rows.stretch(none));
 }
 
-double& axisOf(Vec3d& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
-float axisOf(const V& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
-
-void draw(V (&p)[4]) {
-  std::uniform_real_distribution<float> number(-1, 1);
-  for (V& v : p) v = {number(generator), number(generator), number(generator)};
-}
+void draw(V (&p)[4]) { draws.draw(p); }
 
 TEST(TriangleElastic, GradientIsTheDerivativeOfTheEnergy) {
   for (int trial = 0; trial < 20; ++trial) {

@@ -1,4 +1,5 @@
 // Elements of soft bodies: their edges at the start of the step, and what they are made of.
+#include "geom/soft_mesh_parts.h"
 #include "step/begin_rows.h"
 #include "world/soft.h"
 
@@ -20,7 +21,7 @@ struct Corners {
 rows::TetElastic<float> tetRows(const WorldData& world, const StepData::Element& element) {
   const SoftData& soft = world.softs[element.soft];
   const Corners corners{world, soft, soft.mesh->tets()[element.index].data()};
-  const ElementAtRest rest = elementAtRest(*soft.mesh, element.index);
+  const TetAtRest& rest = soft.mesh->parts().tetsAtRest[element.index];
   const Elasticity elasticity = elasticityOf(soft.material);
   rows::TetElastic<float> rows;
   rows.ab = corners.edge(0, 1), rows.ac = corners.edge(0, 2), rows.ad = corners.edge(0, 3);
@@ -32,7 +33,7 @@ rows::TetElastic<float> tetRows(const WorldData& world, const StepData::Element&
 rows::TriangleElastic<float> triangleRows(const WorldData& world, const StepData::Element& element) {
   const SoftData& soft = world.softs[element.soft];
   const Corners corners{world, soft, soft.mesh->triangles()[element.index].data()};
-  const TriangleAtRest rest = triangleAtRest(*soft.mesh, element.index);
+  const TriangleAtRest& rest = soft.mesh->parts().trianglesAtRest[element.index];
   const Elasticity sheet = sheetOf(soft.material);
   return {corners.edge(0, 1),   corners.edge(0, 2),      rest.bx, rest.by, rest.cx, rest.cy,
           sheet.mu * rest.area, sheet.lambda * rest.area};
@@ -41,7 +42,7 @@ rows::TriangleElastic<float> triangleRows(const WorldData& world, const StepData
 rows::ClothBend<float> bendRows(const WorldData& world, const StepData::Element& element) {
   const SoftData& soft = world.softs[element.soft];
   const Corners corners{world, soft, soft.mesh->hinges()[element.index].data()};
-  const HingeAtRest rest = hingeAtRest(*soft.mesh, element.index);
+  const HingeAtRest& rest = soft.mesh->parts().hingesAtRest[element.index];
   rows::ClothBend<float> rows;
   for (size_t i = 0; i < 4; ++i) rows.weight[i] = rest.weight[i];
   rows.bent =

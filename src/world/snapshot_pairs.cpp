@@ -53,6 +53,16 @@ Basis basisOf(Vec3 n) {
   return {{t1.x, t1.y, t1.z}, {t2.x, t2.y, t2.z}};
 }
 
+/// bodyA, bodyB, generations.
+using Ends = std::array<uint32_t, 6>;
+Ends endsOf(const PairData& p) {
+  return {p.bodyA, p.bodyB, p.generation[0], p.generation[1], p.generation[2], p.generation[3]};
+}
+void setEnds(PairData& pair, const Ends& ends) {
+  pair.bodyA = ends[0], pair.bodyB = ends[1];
+  std::copy(ends.begin() + 2, ends.end(), pair.generation);
+}
+
 /// A pair of which nothing is to tell but that it is there: about half of them.
 struct QuietLook {
   uint16_t flags = 0, material = 0;
@@ -73,7 +83,7 @@ bool isQuiet(const PairData& p) {
 /// What is known of a pair before it is read.
 struct Expected {
   uint32_t shapeA = kNone;
-  std::array<uint32_t, 6> ends{};  ///< bodyA, bodyB, generations
+  Ends ends{};
   uint16_t flags = 0, material = 0;
   uint8_t slides = 0;
   Vec3d origin;
@@ -261,10 +271,11 @@ void writeManifolds(std::byte*& to, uint32_t& bits, const PairSides& sides, cons
 
 void writePair(std::byte*& to, const PairSides& sides, const PairData& pair, Expected& expected) {
   // All members by name, so that a new one does not compile before it is written here and read below.
-  auto& [shapeA, shapeB, bodyA, bodyB, generation, patch, material, element, hasSurface, isTrigger, triggerIsA, reports,
-         wantsHits, hasHook, isFull, touching, wasTouching, touchBegins, slides, landedSliding, pointCount, gonePoints,
-         mean, kept, staticFriction, friction, restitution, torsionalFriction, rollingFriction, origin, manifold,
-         normal, t1, t2, points, turn, torque] = pair;
+  [[maybe_unused]] auto& [shapeA, shapeB, bodyA, bodyB, generation, patch, material, element, hasSurface, isTrigger,
+                          triggerIsA, reports, wantsHits, hasHook, isFull, touching, wasTouching, touchBegins, slides,
+                          landedSliding, pointCount, gonePoints, mean, kept, staticFriction, friction, restitution,
+                          torsionalFriction, rollingFriction, origin, manifold, normal, t1, t2, points, turn, torque] =
+      pair;
   [[maybe_unused]] auto& [newNormal, newCount, newPoints, clear, carrier] = manifold;  // the last two are no state
   std::byte* const head = to;
   to += sizeof(uint32_t);
@@ -273,7 +284,7 @@ void writePair(std::byte*& to, const PairSides& sides, const PairData& pair, Exp
   putNew(to, bits, kShapeA, shapeA, expected.shapeA);
   put(to, shapeB);
   expected.meet(sides, pair, !(bits & kShapeA));
-  const std::array<uint32_t, 6> ends = {bodyA, bodyB, generation[0], generation[1], generation[2], generation[3]};
+  const Ends ends = endsOf(pair);
   const bool quiet = isQuiet(pair) && ends == expected.ends;
   if (quiet && lookOf(pair) == expected.quiet) {
     bits |= kQuiet;
@@ -305,13 +316,8 @@ void readManifolds(const std::byte*& from, uint32_t bits, const PairSides& sides
   readAfter(from, pair, all, expected);
 }
 
-void setEnds(PairData& pair, const std::array<uint32_t, 6>& ends) {
-  pair.bodyA = ends[0], pair.bodyB = ends[1];
-  std::copy(ends.begin() + 2, ends.end(), pair.generation);
-}
-
 void readEnds(const std::byte*& from, uint32_t bits, PairData& pair, const Expected& expected) {
-  std::array<uint32_t, 6> ends;
+  Ends ends;
   putOther(from, bits, kEnds, ends, expected.ends);
   setEnds(pair, ends);
 }
@@ -362,9 +368,7 @@ void readPair(const std::byte*& from, const PairSides& sides, PairData& pair, Ex
   if (bits & kMean) expected.mean = pair.mean + 1;
   if (count == 0 && pair.hasContact()) putOther(from, bits, kLastPoint, pair.manifold.points[0].position, Vec3{});
   readManifolds(from, bits, sides, pair, expected);
-  const std::array<uint32_t, 6> ends = {pair.bodyA,         pair.bodyB,         pair.generation[0],
-                                        pair.generation[1], pair.generation[2], pair.generation[3]};
-  if (isQuiet(pair) && ends == expected.ends) expected.quiet = lookOf(pair);
+  if (isQuiet(pair) && endsOf(pair) == expected.ends) expected.quiet = lookOf(pair);
 }
 
 void ask(const PairList& pairs, size_t i) { pairs.prefetch(i + PairList::kAhead); }

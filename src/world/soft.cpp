@@ -1,8 +1,7 @@
 // Soft bodies between steps (soft.h).
 #include "world/soft.h"
 
-#include <cmath>
-
+#include "geom/soft_mesh_parts.h"
 #include "world/bodies.h"
 #include "world/check.h"
 #include "world/rotation.h"
@@ -10,7 +9,7 @@
 namespace avbd {
 namespace {
 
-Vec3d crossOf(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+using soft_mesh::crossOf;
 
 struct Edges {
   Vec3d b, c, d;
@@ -43,7 +42,7 @@ std::vector<float> softMasses(const SoftMeshData& mesh, const SoftMaterial& mate
     for (const uint32_t p : mesh.tets()[i]) volume[p] += edgesAtRest(mesh, i).sixVolumes() / 24;
   for (size_t i = 0; i < mesh.triangles().size(); ++i)
     for (const uint32_t p : mesh.triangles()[i])
-      volume[p] += double{triangleAtRest(mesh, i).area} * double{material.thickness} / 3;
+      volume[p] += double{mesh.parts().trianglesAtRest[i].area} * double{material.thickness} / 3;
   std::vector<float> masses;
   for (const double v : volume) masses.push_back(static_cast<float>(v * double{material.density}));
   return masses;
@@ -95,13 +94,6 @@ Elasticity elasticityOf(const SoftMaterial& material) {
   return {static_cast<float>(mu), static_cast<float>(lambda + mu)};
 }
 
-ElementAtRest elementAtRest(const SoftMeshData& mesh, size_t tet) {
-  const Edges e = edgesAtRest(mesh, tet);
-  const double six = e.sixVolumes();
-  return {toFloat(crossOf(e.c, e.d) * (1 / six)), toFloat(crossOf(e.d, e.b) * (1 / six)),
-          toFloat(crossOf(e.b, e.c) * (1 / six)), static_cast<float>(six / 6)};
-}
-
 Elasticity sheetOf(const SoftMaterial& material) {
   const double e = double{material.youngsModulus} * double{material.thickness}, nu = double{material.poissonRatio};
   const double mu = e / (2 * (1 + nu)), lambda = e * nu / (1 - nu * nu);
@@ -112,34 +104,6 @@ float bendingOf(const SoftMaterial& material) {
   if (material.bending >= 0) return material.bending;
   const float h = material.thickness, nu = material.poissonRatio;
   return material.youngsModulus * h * h * h / (12 * (1 - nu * nu));
-}
-
-TriangleAtRest triangleAtRest(const SoftMeshData& mesh, size_t triangle) {
-  const auto& t = mesh.triangles()[triangle];
-  const auto at = [&](size_t i) { return toDouble(mesh.points()[t[i]]); };
-  const Vec3d b = at(1) - at(0), c = at(2) - at(0), normal = crossOf(b, c);
-  const double length = std::sqrt(dot(b, b)), twice = std::sqrt(dot(normal, normal));
-  // In the frame along b: b = (length, 0), c = (along, twice / length).
-  const double along = dot(b, c) / length, height = twice / length;
-  return {static_cast<float>(1 / length), static_cast<float>(-along / (length * height)), 0,
-          static_cast<float>(1 / height), static_cast<float>(twice / 2)};
-}
-
-HingeAtRest hingeAtRest(const SoftMeshData& mesh, size_t hinge) {
-  const auto& h = mesh.hinges()[hinge];
-  const auto at = [&](size_t i) { return toDouble(mesh.points()[h[i]]); };
-  const auto twiceArea = [&](size_t corner) {
-    const Vec3d n = crossOf(at(1) - at(0), at(corner) - at(0));
-    return std::sqrt(dot(n, n));
-  };
-  /// Of the angle at an end of the edge, in the triangle with that corner.
-  const auto cotangent = [&](size_t end, size_t corner) {
-    return dot(at(1 - end) - at(end), at(corner) - at(end)) / twiceArea(corner);
-  };
-  const double c02 = cotangent(0, 2), c03 = cotangent(0, 3), c12 = cotangent(1, 2), c13 = cotangent(1, 3);
-  return {{static_cast<float>(c12 + c13), static_cast<float>(c02 + c03), static_cast<float>(-c02 - c12),
-           static_cast<float>(-c03 - c13)},
-          static_cast<float>((twiceArea(2) + twiceArea(3)) / 2)};
 }
 
 }  // namespace avbd

@@ -2,8 +2,9 @@
 //
 // Quadratic in the points (Bergou et al. 2006): E = 1/2 k |sum of weight_i x_i|^2 with weights of cotangents at rest,
 // which sum to zero, and k = D / (A0 + A1) with D the stiffness of the sheet. (Theirs is three times that; for a mesh
-// of equilateral triangles bent along any of its edges this one gives D. A grid of right triangles is softer: a strip
-// of it bends as with 0.7 to 0.8 D.) Right for sheets that hardly stretch; at rest they are flat. J and k are constant.
+// of equilateral triangles bent along any of its edges this one gives D. A grid of right triangles is softer; how
+// much farther than a plate a strip of it bends, the test Cloth.BendsAsAPlateDoes bounds.) Right for sheets that hardly
+// stretch; at rest they are flat. J and k are constant.
 #pragma once
 
 #include <avbd/rows/node_contact.h>
