@@ -105,12 +105,35 @@ constexpr std::array<std::string_view, 87> kOrder{"rest",
 
 std::vector<Line> collect() {
   std::vector<Line> list;
-  for (const auto group : {restLines,      frictionLines, motionLines,  collisionLines,       shapeLines,
-                           scaleLines,     jointLines,    limitLines,   driveLines,           driveTypeLines,
-                           couplingLines,  customLines,   breakLines,   mechanismLines,       treeLines,
-                           treeDriveLines, loopLines,     scissorLines, inverseDynamicsLines, ragdollLines,
-                           stateLines,     badInputLines, skippedLines, continuousLines,      rollbackLines,
-                           sleepLines,     softLines,     clothLines})
+  for (const auto group : {restLines,
+                           frictionLines,
+                           motionLines,
+                           collisionLines,
+                           shapeLines,
+                           scaleLines,
+                           jointLines,
+                           limitLines,
+                           driveLines,
+                           driveTypeLines,
+                           couplingLines,
+                           customLines,
+                           breakLines,
+                           mechanismLines,
+                           treeLines,
+                           treeDriveLines,
+                           loopLines,
+                           scissorLines,
+                           inverseDynamicsLines,
+                           ragdollLines,
+                           stateLines,
+                           badInputLines,
+                           skippedLines,
+                           continuousLines,
+                           rollbackLines,
+                           sleepLines,
+                           softLines,
+                           clothLines,
+                           selfLines})
     for (Line& line : group()) list.push_back(std::move(line));
   const auto rank = [](const Line& line) {
     return std::find(kOrder.begin(), kOrder.end(), line.name) - kOrder.begin();

@@ -54,6 +54,7 @@ std::vector<Line> rollbackLines();
 std::vector<Line> sleepLines();
 std::vector<Line> softLines();
 std::vector<Line> clothLines();
+std::vector<Line> selfLines();
 std::vector<Line> badInputLines();
 /// What is not built yet, by name.
 std::vector<Line> skippedLines();

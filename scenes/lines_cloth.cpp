@@ -39,8 +39,8 @@ Figure rope(const Settings& settings) {
   const std::vector<BodyId> beads = world.particles(id);
   for (size_t i = 0; i < beads.size(); ++i) {
     const Vec3 p = strip->points()[i];
-    if (std::fabs(p.x) < 0.499f) continue;
     world.setPose(beads[i], {{double{p.x} * 0.8, 0, double{p.z}}, {}});
+    if (std::fabs(p.x) < 0.499f) continue;
     world.setLocks(beads[i], kLockLinearX | kLockLinearY | kLockLinearZ);
   }
   for (int i = 0; i < 1200; ++i) world.step(1.0f / 60);

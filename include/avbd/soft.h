@@ -29,6 +29,7 @@ struct SoftDef {
   float radius = 0.01f;  ///< [m] > 0: points of the surface touch as balls of this radius
   Material surface{};    ///< friction of those
   Filter filter{};
+  bool selfContact = true;  ///< parts of it do not pass through each other
   bool canSleep = true;
   uint64_t userData = 0;
 };

@@ -19,6 +19,22 @@ FaceTree::FaceTree(std::span<const Vec3> points, std::span<const Face> faces) : 
   build(0, static_cast<uint32_t>(faces.size()), centres);
 }
 
+void FaceTree::refit(std::span<const Aabb> faces, std::vector<Aabb>& bounds) const {
+  const auto add = [](Aabb& box, const Aabb& more) {
+    box.lower = {std::min(box.lower.x, more.lower.x), std::min(box.lower.y, more.lower.y),
+                 std::min(box.lower.z, more.lower.z)};
+    box.upper = {std::max(box.upper.x, more.upper.x), std::max(box.upper.y, more.upper.y),
+                 std::max(box.upper.z, more.upper.z)};
+  };
+  bounds.resize(nodes_.size());
+  for (size_t i = nodes_.size(); i-- > 0;) {
+    const Node& node = nodes_[i];
+    bounds[i] = node.count > 0 ? faces[order_[node.begin]] : bounds[i + 1];
+    if (node.count == 0) add(bounds[i], bounds[node.right]);
+    for (uint32_t k = node.begin + 1; k < node.begin + node.count; ++k) add(bounds[i], faces[order_[k]]);
+  }
+}
+
 void FaceTree::build(uint32_t begin, uint32_t end, std::vector<Vec3>& centres) {
   const auto node = static_cast<uint32_t>(nodes_.size());
   nodes_.push_back({begin, end - begin, 0});

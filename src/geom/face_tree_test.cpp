@@ -30,8 +30,9 @@ TEST(FaceTree, FindsWhatABoxOverlaps) {
   for (int trial = 0; trial < 60; ++trial) {
     if (trial % 10 == 5)
       for (Vec3& p : points) p = p + Vec3{draw(generator), draw(generator), draw(generator)};
-    mesh->faceTree().refit(
-        faces, [&](uint32_t i) { return points[i]; }, bounds);
+    std::vector<Aabb> boxes;
+    for (const auto& face : faces) boxes.push_back(boundsOf(points, face));
+    mesh->faceTree().refit(boxes, bounds);
     const Vec3 at{place(generator), place(generator), place(generator)};
     const float half = size(generator);
     const Aabb box{at - Vec3{half, half, half}, at + Vec3{half, half, half}};
@@ -46,6 +47,36 @@ TEST(FaceTree, FindsWhatABoxOverlaps) {
       if (overlaps(boundsOf(points, faces[i]), box)) expected.push_back(i);
     EXPECT_EQ(found, expected);
   }
+}
+
+using Pair = std::pair<uint32_t, uint32_t>;
+
+TEST(FaceTree, FindsEachTwoFacesThatOverlapOnce) {
+  const auto mesh = makeTetBox({1, 0.7f, 0.5f}, 5, 4, 3), other = makeTetBox({0.5f, 0.6f, 0.4f}, 3, 5, 4);
+  std::vector<Aabb> boxes[2], bounds[2];
+  const SoftMeshData* all[2] = {mesh.get(), other.get()};
+  for (int i = 0; i < 2; ++i) {
+    const std::vector<Vec3> points(all[i]->points().begin(), all[i]->points().end());
+    for (const auto& face : all[i]->surface()) boxes[i].push_back(boundsOf(points, face));
+    all[i]->faceTree().refit(boxes[i], bounds[i]);
+  }
+  const Vec3 lower{0.3f, 0.1f, -0.4f}, upper{0.4f, 0.2f, -0.2f};
+  const FaceTree::Placed a{boxes[0], bounds[0], {}, {}}, b{boxes[1], bounds[1], lower, upper};
+  std::vector<Pair> found, expected;
+  mesh->faceTree().pairs(a, other->faceTree(), b, [&](uint32_t i, uint32_t k) { found.push_back({i, k}); });
+  for (uint32_t i = 0; i < boxes[0].size(); ++i)
+    for (uint32_t k = 0; k < boxes[1].size(); ++k)
+      if (overlaps(boxes[0][i], {boxes[1][k].lower + lower, boxes[1][k].upper + upper})) expected.push_back({i, k});
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, expected);
+
+  found.clear(), expected.clear();
+  mesh->faceTree().pairs(a, [&](uint32_t i, uint32_t k) { found.push_back({std::min(i, k), std::max(i, k)}); });
+  for (uint32_t i = 0; i < boxes[0].size(); ++i)
+    for (uint32_t k = i + 1; k < boxes[0].size(); ++k)
+      if (overlaps(boxes[0][i], boxes[0][k])) expected.push_back({i, k});
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, expected);
 }
 
 TEST(FaceTree, OfOneFaceHasOneNode) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geom/face_tree.h"
+#include "geom/surface_features.h"
 
 namespace avbd {
 
@@ -36,6 +37,8 @@ struct SoftMeshData::Parts {
   std::vector<TriangleAtRest> trianglesAtRest;
   std::vector<HingeAtRest> hingesAtRest;
   std::unique_ptr<const FaceTree> faceTree;
+  SurfaceFeatures features;       ///< of the surface
+  std::vector<Vec3> faceCentres;  ///< likewise, at rest
   float faceSize = 0;
   double volume = 0, area = 0;
   uint64_t hash = 0;

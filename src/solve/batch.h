@@ -151,7 +151,7 @@ struct BatchView {
   // faces.
   NodeTiles<rows::TetElastic, rows::ElasticOp> elastic;
   NodeTiles<rows::TriangleElastic, rows::TriangleOp> triangles;
-  NodeTiles<rows::ClothBend, rows::NodeContactOp> bends;
+  NodeTiles<rows::ClothBend, rows::BendOp> bends;
   NodeTiles<rows::NodeContact, rows::NodeContactOp> nodeContacts;
   ScalarJoints scalar;
   LinkedJoints linked;

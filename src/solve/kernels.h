@@ -227,7 +227,7 @@ void updateOthers(const BatchView& v, const SolveSettings& s) {
   dualPairs(v, v.fixed, {0, v.fixed.tiles}, 1);
   dualPairs(v, v.full, {0, v.full.tiles}, s.contactLeak);
   dualTets(v);
-  dualNodes(v, v.nodeContacts, DualSink<R>{splat<R>(s.contactLeak)});
+  dualNodeContacts(v, s.contactLeak);
 }
 
 // ---- Products with H -------------------------------------------------------------------------------------------

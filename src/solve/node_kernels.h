@@ -83,11 +83,14 @@ AVBD_INLINE ElementStamp<TriangleOp<R>> stampOf(const TriangleElastic<R>& triang
   return stamp;
 }
 
-AVBD_INLINE ElementStamp<NodeContactOp<R>> stampOf(const ClothBend<R>& bend, const V3<R> (&d)[4]) {
-  ElementStamp<NodeContactOp<R>> stamp;
+AVBD_INLINE ElementStamp<BendOp<R>> stampOf(const ClothBend<R>& bend, const V3<R> (&d)[4]) {
+  ElementStamp<BendOp<R>> stamp;
   bend.gradient(d, stamp.gradient);
   stamp.op = bend.op();
-  for (int i = 0; i < 4; ++i) stamp.block[i] = stamp.op.stiffness * (bend.weight[i] * bend.weight[i]);
+  for (int i = 0; i < 4; ++i) {
+    const R k = bend.k * (bend.weight[i] * bend.weight[i]);
+    stamp.block[i] = diagonal(V3<R>{k, k, k});
+  }
   return stamp;
 }
 
@@ -129,11 +132,70 @@ void multiplyElements(const BatchView& v, const NodeTiles<Family, Op>& all) {
   });
 }
 
+/// Adds vectors to the nodes, and a vector to the angular part of the first, lane after lane.
+AVBD_INLINE void scatterTouch(float* array, NodeRows rows, uint32_t at, const V3<R> (&value)[4], const V3<R>& turn) {
+  using Row = lane::Wide<4>;
+  alignas(64) float lanes[5][N][4];
+  for (int i = 0; i < 5; ++i) {
+    const V3<R>& v = i < 4 ? value[i] : turn;
+    const R columns[4] = {v.x, v.y, v.z, zero<R>()};
+    lane::storeRows<N>(lanes[i][0], 4, columns);
+  }
+  const auto add = [](float* to, const float* by) { lane::store(to, lane::load<Row>(to) + lane::load<Row>(by)); };
+  for (uint32_t l = 0; l < N; ++l) {
+    for (int i = 0; i < 4; ++i) add(array + size_t(8) * rows[i][at + l], lanes[i][l]);
+    add(array + size_t(8) * rows[0][at + l] + 4, lanes[4][l]);
+  }
+}
+
+/// The same of blocks: the first node's is whole.
+AVBD_INLINE void scatterTouchBlocks(const BatchView& v, NodeRows rows, uint32_t at, const Sym6<R>& first,
+                                    const Sym3<R> (&block)[4]) {
+  constexpr int kWhole = 24, kLinear = 6;
+  alignas(64) float whole[N][kWhole], lanes[3][kLinear][N];
+  lane::storeSym6<N>(whole[0], first);
+  for (int i = 0; i < 3; ++i) {
+    const Sym3<R>& m = block[i + 1];
+    const R entries[kLinear] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
+    for (int k = 0; k < kLinear; ++k) lane::store(lanes[i][k], entries[k]);
+  }
+  for (uint32_t l = 0; l < N; ++l) {
+    float* to = v.hessian + size_t(kHessianRow) * rows[0][at + l];
+    for (int k = 0; k < 21; ++k) to[k] += whole[l][k];
+    for (int i = 0; i < 3; ++i) {
+      to = v.hessian + size_t(kHessianRow) * rows[i + 1][at + l];
+      for (int k = 0; k < kLinear; ++k) to[k] += lanes[i][k][l];
+    }
+  }
+}
+
+/// Motion of the nodes, and the turn of the first.
+AVBD_INLINE void gatherTouch(NodeRows rows, const float* array, uint32_t at, V3<R> (&node)[4], V3<R>& turn) {
+  const Twist<R> first = gatherTwist<N>(array, rows[0] + at);
+  node[0] = first.lin, turn = first.ang;
+  for (int i = 1; i < 4; ++i) {
+    R linear[4];
+    lane::gatherRows<N>(array, 8, rows[i] + at, linear);
+    node[i] = {linear[0], linear[1], linear[2]};
+  }
+}
+
+void multiplyNodeContacts(const BatchView& v) {
+  const auto& all = v.nodeContacts;
+  forLanes({0, all.tiles}, [&](uint32_t t, int o) {
+    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
+    V3<R> p[4], turn, out[4], outTurn;
+    gatherTouch(all.node, v.p, at, p, turn);
+    multiply(all.op[t].template load<N>(o), p, turn, out, outTurn);
+    scatterTouch(v.q, all.node, at, out, outTurn);
+  });
+}
+
 void multiplySofts(const BatchView& v) {
   multiplyElements(v, v.elastic);
   multiplyElements(v, v.triangles);
   multiplyElements(v, v.bends);
-  multiplyElements(v, v.nodeContacts);
+  multiplyNodeContacts(v);
 }
 
 void prepareNodeContacts(const BatchView& v, float factor) {
@@ -141,11 +203,15 @@ void prepareNodeContacts(const BatchView& v, float factor) {
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     NodeContact<R> c = all.tile[t].load<N>(o);
-    R w = zero<R>();
-    for (int i = 0; i < 4; ++i)
-      w = w + c.weight[i] * c.weight[i] * gatherInverseMass(v.invMass, all.node[i] + at).linear;
-    c.floorN = floorStiffness(c.floorN, w, factor);
-    c.floorT = floorStiffness(c.floorT, w, factor);
+    R corners = zero<R>();
+    for (int i = 1; i < 4; ++i)
+      corners = corners + c.weight[i] * c.weight[i] * gatherInverseMass(v.invMass, all.node[i] + at).linear;
+    const InverseMass first = gatherInverseMass(v.invMass, all.node[0] + at);
+    const auto along = [&](const V3<R>& axis) {
+      return corners + c.weight[0] * c.weight[0] * inverseMassAlong(first, c.arm, axis);
+    };
+    c.floorN = floorStiffness(c.floorN, along(c.n), factor);
+    c.floorT = floorStiffness(c.floorT, max(along(c.t1), along(c.t2)), factor);
     all.tile[t].store<N>(o, c);
   });
 }
@@ -155,25 +221,39 @@ void stampNodeContacts(const BatchView& v, float leak, bool dual) {
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     NodeContact<R> c = all.tile[t].load<N>(o);
-    V3<R> d[4], gradient[4];
-    gatherNodes(all.node, v.d, at, d);
+    V3<R> d[4], turn, gradient[4];
+    gatherTouch(all.node, v.d, at, d, turn);
     if (dual) {
       DualSink<R> sink{splat<R>(leak)};
-      c.rows(d, sink);
+      c.rows(d, turn, sink);
       all.tile[t].store<N>(o, c);
     }
     StampSink<R> sink;
     sink.clear();
-    c.rows(d, sink);
-    NodeContactOp<R> op{{c.weight[0], c.weight[1], c.weight[2], c.weight[3]}, sink.stiffness.ll};
+    c.rows(d, turn, sink);
+    NodeContactOp<R> op{{c.weight[0], c.weight[1], c.weight[2], c.weight[3]}, c.arm, sink.stiffness.ll};
     all.op[t].store<N>(o, op);
     Sym3<R> block[4];
     for (int i = 0; i < 4; ++i) {
       gradient[i] = sink.wrench.lin * c.weight[i];
       block[i] = op.stiffness * (c.weight[i] * c.weight[i]);
     }
-    scatterVectors<4>(v.gradient, all.node, at, gradient);
-    scatterBlocks<4>(v, all.node, at, block);
+    Sym6<R> first = zeroSym6<R>();
+    first.ll = block[0];
+    scatterTouch(v.gradient, all.node, at, gradient, cross(c.arm, gradient[0]));
+    scatterTouchBlocks(v, all.node, at, shifted(first, c.arm), block);
+  });
+}
+
+void dualNodeContacts(const BatchView& v, float leak) {
+  const auto& all = v.nodeContacts;
+  forLanes({0, all.tiles}, [&](uint32_t t, int o) {
+    NodeContact<R> c = all.tile[t].load<N>(o);
+    V3<R> d[4], turn;
+    gatherTouch(all.node, v.d, t * kTile + static_cast<uint32_t>(o), d, turn);
+    DualSink<R> sink{splat<R>(leak)};
+    c.rows(d, turn, sink);
+    all.tile[t].store<N>(o, c);
   });
 }
 

@@ -10,6 +10,7 @@
 #include "step/publish_events.h"
 #include "step/settings.h"
 #include "step/sleeping.h"
+#include "step/soft_touches.h"
 #include "step/step.h"
 #include "step/step_data.h"
 #include "world/joints.h"
@@ -58,6 +59,7 @@ void substep(WorldData& world, StepData& step) {
     solve(world, step);
   }
   run(Stage::Continuous, stopAtImpacts, world, step);
+  run(Stage::Continuous, stopSofts, world, step);
   run(Stage::Sleep, chooseSleepers, world, step);
   run(Stage::Publish, publish, world, step);
 }

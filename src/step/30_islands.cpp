@@ -6,6 +6,7 @@
 #include "world/joints.h"
 #include "world/pairs.h"
 #include "world/soft.h"
+#include "world/soft_touch.h"
 
 namespace avbd {
 
@@ -76,9 +77,10 @@ void joinBodies(const WorldData& world, StepData& step) {
     if (isAsleep(world, soft)) return;
     for (const uint32_t body : soft.bodies) join(step.parent, soft.bodies[0], body);
   });
-  for (const StepData::FoundTouch& found : step.softTouches)
-    if (found.awake)
-      join(step.parent, world.softs[found.touch.pointSoft].bodies[0], world.softs[found.touch.faceSoft].bodies[0]);
+  for (const FoundTouch& found : step.softTouches) {
+    const uint32_t first = found.awake ? bodyOfFirst(world, found.touch) : kNone;
+    if (isDynamic(world, first)) join(step.parent, first, bodyOfSecond(world, found.touch));
+  }
 }
 
 /// Turns the islands' counts into the beginnings of consecutive ranges and clears them, to be counted again by who
@@ -133,11 +135,14 @@ void listSofts(const WorldData& world, StepData& step) {
 }
 
 void listTouches(const WorldData& world, StepData& step) {
-  const auto island = [&](const StepData::FoundTouch& found) -> Island& {
-    return step.islands[step.islandOf[world.softs[found.touch.faceSoft].bodies[0]]];
+  const auto island = [&](const FoundTouch& found) -> Island& {
+    return step.islands[step.islandOf[bodyOfSecond(world, found.touch)]];
   };
-  for (const StepData::FoundTouch& found : step.softTouches)
-    if (found.awake) ++island(found).touchCount;
+  for (const FoundTouch& found : step.softTouches) {
+    if (!found.awake) continue;
+    ++island(found).touchCount;
+    if (!isDynamic(world, bodyOfFirst(world, found.touch))) island(found).floating = false;
+  }
   step.islandTouches.resize(layOut(step.islands, &Island::touchBegin, &Island::touchCount));
   for (uint32_t i = 0; i < step.softTouches.size(); ++i) {
     if (!step.softTouches[i].awake) continue;

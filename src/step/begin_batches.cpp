@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "step/begin_chunks.h"
+#include "world/soft_touch.h"
 
 namespace avbd {
 
@@ -125,12 +126,9 @@ void addTouches(const WorldData& world, StepData& step, BatchRange& batch) {
     const Island& island = step.islands[batch.islandBegin + n];
     for (uint32_t i = 0; i < island.touchCount; ++i) {
       const uint32_t index = step.islandTouches[island.touchBegin + i];
-      const SoftTouch& touch = step.softTouches[index].touch;
-      const SoftData& faces = world.softs[touch.faceSoft];
+      const std::array<uint32_t, 4> nodes = nodesOf(world, step.softTouches[index].touch);
       step.touchLane.push_back(index);
-      step.touchRow[0].push_back(step.rowOf[world.softs[touch.pointSoft].bodies[touch.point]]);
-      for (size_t k = 0; k < 3; ++k)
-        step.touchRow[k + 1].push_back(step.rowOf[faces.bodies[faces.mesh->surface()[touch.face][k]]]);
+      for (size_t k = 0; k < 4; ++k) step.touchRow[k].push_back(rowInBatch(world, step, batch, nodes[k]));
     }
   }
   padLanes(step.touchLane, kNone);

@@ -1,4 +1,4 @@
-// Rows of points that touch faces of soft bodies: constants of the step and remembered multipliers; and their
+// Rows of touches of soft bodies: constants of the step and remembered multipliers; and their
 // publication.
 #include <algorithm>
 
@@ -6,6 +6,7 @@
 #include "step/contacts.h"
 #include "step/settings.h"
 #include "step/soft_touches.h"
+#include "world/soft_touch.h"
 
 namespace avbd {
 
@@ -13,31 +14,31 @@ namespace {
 
 constexpr float kMost = 2;  ///< as of contacts of bodies: bound of the load's stiffness [island masses / h^2]
 
-const Material& surfaceOf(const WorldData& world, uint32_t body) {
-  return world.shapes[world.bodies[body].firstShape].material;
-}
-
-rows::NodeContact<float> touchRows(const WorldData& world, const StepData& step, const StepData::FoundTouch& found,
-                                   float mass, float leak) {
+rows::NodeContact<float> touchRows(const WorldData& world, const StepData& step, const FoundTouch& found, float mass,
+                                   float leak) {
   const SoftTouch& touch = found.touch;
-  const SoftData &points = world.softs[touch.pointSoft], &faces = world.softs[touch.faceSoft];
-  const auto& corner = faces.mesh->surface()[touch.face];
-  const uint32_t point = points.bodies[touch.point];
+  const std::array<uint32_t, 4> nodes = nodesOf(world, touch);
+  const std::array<float, 4> stuck = nodeWeights(touch.kind, touch.anchor);
+  const bool ofShape = touch.kind == TouchKind::ShapeFace;
   const TouchBasis basis = basisOf(touch.normal);
   rows::NodeContact<float> c{};
   c.n = toRow(touch.normal), c.t1 = toRow(basis.t1), c.t2 = toRow(basis.t2);
-  c.weight[0] = -1, c.weight[1] = found.weights.x, c.weight[2] = found.weights.y, c.weight[3] = found.weights.z;
-  const auto off = [&](size_t i) {
-    return toFloat(world.bodies[faces.bodies[corner[i]]].position - world.bodies[point].position);
-  };
-  const Vec3 slip = off(0) * touch.anchor.x + off(1) * touch.anchor.y + off(2) * touch.anchor.z;
+  c.arm = toRow(found.arm);
+  Vec3 slip;
+  const BodyData& first = world.bodies[nodes[0]];
+  for (size_t i = 0; i < 4; ++i) {
+    c.weight[i] = found.weights[i];
+    slip = slip + toFloat(world.bodies[nodes[i]].position - first.position) * stuck[i];
+  }
+  if (ofShape) slip = slip - rotate(first.rotation, touch.place);
   c.biasN = normalBias(world, step, found.separation);
   c.bias1 = (1 - step.alpha) * dot(slip, basis.t1);
   c.bias2 = (1 - step.alpha) * dot(slip, basis.t2);
   c.floorN = c.floorT = 1;  // prepareOthers puts the stiffness
   c.loadStiffness = 1 / step.loadDepth;
   c.stiffest = kMost * mass / (step.h * step.h);
-  const CombinedMaterial material = combined(surfaceOf(world, point), surfaceOf(world, faces.bodies[corner[0]]));
+  const auto [a, b] = shapesOf(world, touch);
+  const CombinedMaterial material = combined(world.shapes[a].material, world.shapes[b].material);
   c.mu = touch.slides > 1 ? material.friction : material.staticFriction;
   c.lambdaN = leak * touch.lambda.x, c.lambda1 = leak * touch.lambda.y, c.lambda2 = leak * touch.lambda.z;
   return c;
@@ -53,8 +54,8 @@ void fillSoftTouches(const WorldData& world, StepData& step) {
       rows::NodeContact<float> rows{};
       const uint32_t index = step.touchLane[lane];
       if (index != kNone) {
-        const StepData::FoundTouch& found = step.softTouches[index];
-        const float mass = step.islands[step.islandOf[world.softs[found.touch.faceSoft].bodies[0]]].mass;
+        const FoundTouch& found = step.softTouches[index];
+        const float mass = step.islands[step.islandOf[bodyOfSecond(world, found.touch)]].mass;
         rows = touchRows(world, step, found, mass, leak);
       }
       step.touchTiles[lane / kTile].set(static_cast<int>(lane % kTile), rows);

@@ -5,6 +5,7 @@
 
 #include "world/joints.h"
 #include "world/sleep.h"
+#include "world/soft_touch.h"
 
 namespace avbd {
 
@@ -75,10 +76,10 @@ bool wakeTouched(WorldData& world, StepData& step) {
     wakeSide(world, step, found.bodyA);
     wakeSide(world, step, found.bodyB);
   }
-  for (const StepData::FoundTouch& found : step.softTouches) {
+  for (const FoundTouch& found : step.softTouches) {
     if (!found.awake) continue;
-    wakeSide(world, step, world.softs[found.touch.pointSoft].bodies[0]);
-    wakeSide(world, step, world.softs[found.touch.faceSoft].bodies[0]);
+    wakeSide(world, step, bodyOfFirst(world, found.touch));
+    wakeSide(world, step, bodyOfSecond(world, found.touch));
   }
   if (step.wokenIslands.size() == before) return false;
   listWoken(world, step, before);

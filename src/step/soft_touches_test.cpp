@@ -13,26 +13,6 @@ namespace {
 
 constexpr float kDt = 1.0f / 60;
 
-TEST(NearestOnFace, NoPointOfItIsNearer) {
-  std::mt19937 generator(9);
-  std::uniform_real_distribution<float> draw(-1, 1);
-  const auto vector = [&] { return Vec3{draw(generator), draw(generator), draw(generator)}; };
-  for (int trial = 0; trial < 200; ++trial) {
-    const Vec3 a = vector(), b = vector(), c = vector(), p = vector() * 2;
-    const NearestOnFace nearest = nearestOnFace(p, a, b, c);
-    const Vec3 w = nearest.weights;
-    EXPECT_NEAR(w.x + w.y + w.z, 1, 1e-5);
-    EXPECT_GE(std::min({w.x, w.y, w.z}), -1e-5f);
-    EXPECT_NEAR(length(a * w.x + b * w.y + c * w.z - nearest.point), 0, 1e-5);
-    const float distance = length(p - nearest.point);
-    for (int i = 0; i <= 20; ++i)
-      for (int k = 0; i + k <= 20; ++k) {
-        const float u = static_cast<float>(i) / 20, v = static_cast<float>(k) / 20;
-        EXPECT_GE(length(p - (a * (1 - u - v) + b * u + c * v)), distance - 1e-5f);
-      }
-  }
-}
-
 std::shared_ptr<const SoftMeshData> cube() { return makeTetBox({0.25f, 0.25f, 0.25f}, 3, 3, 3); }
 
 void run(World& world, int steps) {

@@ -14,6 +14,7 @@
 #include "solve/sweep.h"
 #include "solve/tree_response.h"
 #include "step/continuous.h"
+#include "step/soft_surfaces.h"
 #include "world/world_data.h"
 
 namespace avbd {
@@ -273,26 +274,7 @@ struct StepData {
   std::vector<ContactChange> changes;  ///< by pair
   std::vector<FoundContact> found;     ///< by index of the pair
 
-  /// Where a soft body is in this step.
-  struct SoftPlace {
-    Vec3d origin;
-    std::vector<Vec3> points;  ///< from there
-    std::vector<Aabb> bounds;  ///< of its tree of faces, likewise
-    float fastest = 0;         ///< [m/s] of its particles
-  };
-  std::vector<SoftPlace> softPlaces;  ///< by slot
-  /// Of a body along x.
-  struct SoftEnds {
-    double lower, upper;
-    uint32_t slot;
-  };
-  std::vector<SoftEnds> softEnds;
-  struct FoundTouch {
-    SoftTouch touch;
-    Vec3 weights;  ///< of the face's corners, where the point is nearest
-    float separation = 0;
-    bool awake = false;
-  };
+  SoftSurfaces softs;
   std::vector<FoundTouch> softTouches;       ///< ascending
   std::vector<SoftTouch> softTouchesBefore;  ///< of the step before, where substeps may fail
 
@@ -367,7 +349,7 @@ struct StepData {
   UnwrittenVector<Tile<rows::TriangleElastic>> triangleTiles;
   UnwrittenVector<Tile<rows::TriangleOp>> triangleOp;
   UnwrittenVector<Tile<rows::ClothBend>> bendTiles;
-  UnwrittenVector<Tile<rows::NodeContactOp>> bendOp;
+  UnwrittenVector<Tile<rows::BendOp>> bendOp;
   std::vector<uint32_t> touchLane;  ///< index in softTouches by lane, kNone
   std::vector<uint32_t> touchRow[4];
   UnwrittenVector<Tile<rows::NodeContact>> touchTiles;

@@ -9,6 +9,7 @@
 #include "world/joints.h"
 #include "world/pairs.h"
 #include "world/soft.h"
+#include "world/soft_touch.h"
 
 namespace avbd {
 namespace {
@@ -283,9 +284,10 @@ void putToSleep(WorldData& data, uint32_t body) {
     if (!isAsleep(data, soft))
       for (const uint32_t particle : soft.bodies) join(particle, soft.bodies[0]);
   });
-  for (const SoftTouch& touch : data.softTouches)
-    if (!isAsleep(data, data.softs[touch.pointSoft]) && !isAsleep(data, data.softs[touch.faceSoft]))
-      join(data.softs[touch.pointSoft].bodies[0], data.softs[touch.faceSoft].bodies[0]);
+  for (const SoftTouch& touch : data.softTouches) {
+    const uint32_t a = bodyOfFirst(data, touch), b = bodyOfSecond(data, touch);
+    if (isDynamic(data, a) && isAwake(data, a) && isAwake(data, b)) join(a, b);
+  }
   std::vector<uint32_t> bodies;
   for (const uint32_t slot : awake)
     if (isDynamic(data, slot) && root(slot) == root(body)) bodies.push_back(slot);

@@ -147,8 +147,8 @@ auto snapshotParts(T& x) {
 
 template <MaybeConst<SoftTouch> T>
 auto snapshotParts(T& x) {
-  auto& [pointSoft, faceSoft, point, face, normal, lambda, anchor, sticks, slides] = x;
-  return std::tie(pointSoft, faceSoft, point, face, normal, lambda, anchor, sticks, slides);
+  auto& [kind, sticks, slides, first, firstPart, second, secondPart, normal, lambda, anchor, place] = x;
+  return std::tie(kind, sticks, slides, first, firstPart, second, secondPart, normal, lambda, anchor, place);
 }
 
 template <MaybeConst<TouchEvent> T>

@@ -1,6 +1,7 @@
 // Snapshots: soft bodies. What they are made of is shared, and where they are their particles say.
 #include <algorithm>
 
+#include "geom/soft_mesh_parts.h"
 #include "world/snapshot_parts.h"
 
 namespace avbd::snapshot {
@@ -9,10 +10,10 @@ namespace {
 /// All members by name but mesh and bodies, which are coded below.
 template <class Codec, class Soft>
 void codeNumbers(Codec& codec, Soft& soft) {
-  auto& [mesh, material, radius, bodies, userData] = soft;
+  auto& [mesh, material, radius, selfContact, bodies, userData] = soft;
   codec.put(material.youngsModulus), codec.put(material.poissonRatio), codec.put(material.density);
   codec.put(material.thickness), codec.put(material.bending);
-  codec.put(radius), codec.put(userData);
+  codec.put(radius), codec.put(selfContact), codec.put(userData);
 }
 
 /// Every particle is one of its soft body and of no other.
@@ -35,15 +36,22 @@ void checkParticles(const WorldData& data) {
   require(left == 0, "a particle of no soft body");
 }
 
+size_t partsOf(const WorldData& data, const SoftTouch& touch, bool second) {
+  const SoftData& soft = data.softs[second ? touch.second : touch.first];
+  if (touch.kind == TouchKind::EdgeEdge) return soft.mesh->parts().features.edges.size();
+  return second ? soft.mesh->surface().size() : soft.bodies.size();
+}
+
 void checkTouches(const WorldData& data) {
   const SoftTouch* before = nullptr;
   for (const SoftTouch& touch : data.softTouches) {
-    require(data.softIds.isAliveSlot(touch.pointSoft) && data.softIds.isAliveSlot(touch.faceSoft) &&
-                touch.pointSoft != touch.faceSoft,
+    const bool ofShape = touch.kind == TouchKind::ShapeFace;
+    require(touch.kind <= TouchKind::ShapeFace && data.softIds.isAliveSlot(touch.second) &&
+                (ofShape ? data.shapeIds.isAliveSlot(touch.first) : data.softIds.isAliveSlot(touch.first)),
             "a touch of soft bodies that there are not");
-    require(touch.point < data.softs[touch.pointSoft].bodies.size() &&
-                touch.face < data.softs[touch.faceSoft].mesh->surface().size(),
-            "a touch of no point or face");
+    require(touch.secondPart < partsOf(data, touch, true) &&
+                (ofShape || touch.firstPart < partsOf(data, touch, false)),
+            "a touch of no point, edge or face");
     require(!before || *before < touch, "the order of touches");
     before = &touch;
   }

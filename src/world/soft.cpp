@@ -52,7 +52,7 @@ uint32_t addSoft(WorldData& data, const SoftDef& def) {
   const uint32_t slot = data.softIds.slot(data.softIds.create());
   if (slot >= data.softs.size()) data.softs.resize(slot + 1);
   SoftData& soft = data.softs[slot];
-  soft = {def.mesh, def.material, def.radius, {}, def.userData};
+  soft = {def.mesh, def.material, def.radius, def.selfContact, {}, def.userData};
   const SoftMeshData& mesh = *def.mesh;
   const std::vector<float> masses = softMasses(mesh, def.material);
   std::vector<uint8_t> outside(mesh.points().size());
@@ -73,8 +73,9 @@ uint32_t addSoft(WorldData& data, const SoftDef& def) {
 void removeSoft(WorldData& data, uint32_t slot) {
   const std::vector<uint32_t> bodies = std::move(data.softs[slot].bodies);
   data.softs[slot] = {};
-  std::erase_if(data.softTouches,
-                [&](const SoftTouch& touch) { return touch.pointSoft == slot || touch.faceSoft == slot; });
+  std::erase_if(data.softTouches, [&](const SoftTouch& touch) {
+    return touch.second == slot || (touch.kind != TouchKind::ShapeFace && touch.first == slot);
+  });
   for (const uint32_t body : bodies) removeBody(data, body);
   data.softIds.destroy(data.softIds.id(slot));
 }

@@ -94,9 +94,9 @@ void add(Hash64& hash, const PairData& pair) {
 }
 
 void add(Hash64& hash, const SoftTouch& touch) {
-  hash.value(touch.pointSoft), hash.value(touch.faceSoft), hash.value(touch.point), hash.value(touch.face);
-  hash.value(touch.normal), hash.value(touch.lambda), hash.value(touch.anchor);
-  hash.value(touch.sticks), hash.value(touch.slides);
+  hash.value(static_cast<uint8_t>(touch.kind)), hash.value(touch.sticks), hash.value(touch.slides);
+  hash.value(touch.first), hash.value(touch.firstPart), hash.value(touch.second), hash.value(touch.secondPart);
+  hash.value(touch.normal), hash.value(touch.lambda), hash.value(touch.anchor), hash.value(touch.place);
 }
 
 template <class Tag>

@@ -129,22 +129,33 @@ struct SoftData {
   std::shared_ptr<const SoftMeshData> mesh;
   SoftMaterial material;
   float radius = 0;
+  bool selfContact = true;
   std::vector<uint32_t> bodies;  ///< slots, by point of the mesh
   uint64_t userData = 0;
 };
 
-/// A point of a soft body that touches a face of another one, with what it remembers.
+/// What touches what, the first behind the second.
+enum class TouchKind : uint8_t {
+  PointFace,  ///< a point of a soft body, a face of one
+  EdgeEdge,   ///< edges of soft bodies
+  ShapeFace   ///< a shape of a body, a face of a soft body
+};
+
+/// A touch of a surface of a soft body, with what it remembers. Points of soft bodies touch shapes as pairs of theirs.
 struct SoftTouch {
-  uint32_t pointSoft = kNone, faceSoft = kNone;  ///< slots
-  uint32_t point = 0, face = 0;                  ///< in their meshes
-  Vec3 normal;                                   ///< from the face to the point
-  Vec3 lambda;         ///< [N] of the last substep, on the point: along the normal, and across it
-  Vec3 anchor;         ///< where it stuck: weights of the face's corners
-  uint8_t sticks = 1;  ///< it did not slip in the last step
-  uint8_t slides = 0;  ///< steps since it stuck, saturating
-  /// By whose it is; a point touches one face of a body.
+  TouchKind kind = TouchKind::PointFace;
+  uint8_t sticks = 1;                       ///< it did not slip in the last step
+  uint8_t slides = 0;                       ///< steps since it stuck, saturating
+  uint32_t first = kNone, firstPart = 0;    ///< slot of the soft body, point or edge; of the shape, 0
+  uint32_t second = kNone, secondPart = 0;  ///< slot of the soft body; face or edge in its mesh
+  Vec3 normal;                              ///< from the second to the first
+  Vec3 lambda;                              ///< [N] of the last substep, on the first: along the normal, and across it
+  Vec3 anchor;  ///< where it stuck: weights of the face's corners, or the shares of the edges' ways
+  Vec3 place;   ///< of a shape the same, in its body's axes from the centre of mass
+  /// By whose it is.
   friend bool operator<(const SoftTouch& a, const SoftTouch& b) {
-    return std::tie(a.pointSoft, a.point, a.faceSoft) < std::tie(b.pointSoft, b.point, b.faceSoft);
+    return std::tie(a.kind, a.first, a.firstPart, a.second, a.secondPart) <
+           std::tie(b.kind, b.first, b.firstPart, b.second, b.secondPart);
   }
 };
 

@@ -7,9 +7,16 @@
 // stretch; at rest they are flat. J and k are constant.
 #pragma once
 
-#include <avbd/rows/node_contact.h>
+#include <avbd/rows/row.h>
 
 namespace avbd::rows {
+
+/// What the products with H need of it.
+template <class R>
+struct BendOp {
+  R weight[4];
+  R k;
+};
 
 template <class R>
 struct ClothBend {
@@ -22,9 +29,14 @@ struct ClothBend {
     const V3<R> sum = bent + d[0] * weight[0] + d[1] * weight[1] + d[2] * weight[2] + d[3] * weight[3];
     for (int i = 0; i < 4; ++i) out[i] = sum * (k * weight[i]);
   }
-  AVBD_INLINE NodeContactOp<R> op() const {
-    return {{weight[0], weight[1], weight[2], weight[3]}, diagonal(V3<R>{k, k, k})};
-  }
+  AVBD_INLINE BendOp<R> op() const { return {{weight[0], weight[1], weight[2], weight[3]}, k}; }
 };
+
+/// H p of the four blocks.
+template <class R>
+AVBD_INLINE void multiply(const BendOp<R>& o, const V3<R> (&p)[4], V3<R> (&out)[4]) {
+  const V3<R> force = (p[0] * o.weight[0] + p[1] * o.weight[1] + p[2] * o.weight[2] + p[3] * o.weight[3]) * o.k;
+  for (int i = 0; i < 4; ++i) out[i] = force * o.weight[i];
+}
 
 }  // namespace avbd::rows

@@ -1,0 +1,238 @@
+// Continuous collision of the surfaces of soft bodies.
+//
+// After the solve the ways of all points are known. Two features whose ends are still parted by the plane that parts
+// them at the start have not met on straight ways; of others conservative advancement tells when they come too near.
+// Points that take part then go only as far as keeps them apart, in the end nowhere, where they start apart; and so do
+// bodies that meet them. Velocities stay, so the next step solves the contact.
+#include <algorithm>
+
+#include "avbd/rows/math.h"
+#include "step/free_motion.h"
+#include "step/soft_touches.h"
+#include "world/joints.h"
+#include "world/soft.h"
+#include "world/soft_touch.h"
+
+namespace avbd {
+
+namespace {
+
+constexpr float kKept = 0.2f, kKeptNear = 0.5f;  ///< of the thickness, and of the distance at the start
+constexpr float kUnseen = 1e-5f;  ///< of the thickness: nearer at the start are none that were kept apart
+constexpr int kFewPasses = 6;     ///< after these what still meets stays where it started
+constexpr int kMostPasses = 60;
+
+/// The least distance along a direction from the second's nodes to the first's, at the end.
+float leastAtEnd(const NearFeatures& near, Vec3 direction) {
+  const int split = near.kind == TouchKind::EdgeEdge ? 2 : 1;
+  float first = 1e30f, second = -1e30f;
+  for (int i = 0; i < 4; ++i) {
+    const float along = dot(direction, near.points.when(i, 1));
+    if (i < split)
+      first = std::min(first, along);
+    else
+      second = std::max(second, along);
+  }
+  return first - second;
+}
+
+}  // namespace
+
+float keptDistance(float thickness, float distance) { return std::min(kKept * thickness, kKeptNear * distance); }
+
+bool mayMeet(const WorldData& world, const NearFeatures& near, const FeatureContact& contact) {
+  // Behind the surface of a solid the way leads out through the face.
+  if (near.kind == TouchKind::PointFace && !contact.counts) return false;
+  return contact.distance > kUnseen * (world.softs[near.first].radius + world.softs[near.second].radius);
+}
+
+float meetingTime(const WorldData& world, const SoftSurfaces& surfaces, const NearFeatures& near) {
+  const FeatureContact contact = featureContact(world, surfaces, near);
+  if (!mayMeet(world, near, contact)) return 2;
+  const bool point = near.kind == TouchKind::PointFace;
+  const float both = world.softs[near.first].radius + world.softs[near.second].radius;
+  const Vec3 direction = contact.off * (1 / contact.distance);
+  const float end = leastAtEnd(near, direction);
+  if (end >= keptDistance(both, contact.distance)) return 2;
+  const float kept =
+      near.within() ? keptDistance(thicknessOf(world, near), contact.distance) : keptDistance(both, contact.distance);
+  if (end >= kept) return 2;
+  return point ? pointMeetsFace(near.points, kept) : edgesMeet(near.points, kept);
+}
+
+FoundTouch touchAt(const WorldData& world, const NearFeatures& near, float time) {
+  Vec3 p[4];
+  for (int i = 0; i < 4; ++i) p[i] = near.points.when(i, time);
+  FoundTouch found;
+  found.touch.kind = near.kind;
+  found.touch.first = near.first, found.touch.firstPart = near.firstPart;
+  found.touch.second = near.second, found.touch.secondPart = near.secondPart;
+  if (near.kind == TouchKind::EdgeEdge) {
+    const NearestOnEdges nearest = nearestOnEdges(p[0], p[1], p[2], p[3]);
+    found.touch.anchor = {nearest.onFirst, nearest.onSecond, 0};
+    found.off = nearest.first - nearest.second;
+  } else {
+    const NearestOnFace nearest = nearestOnFace(p[0], p[1], p[2], p[3]);
+    found.touch.anchor = nearest.weights;
+    found.off = p[0] - nearest.point;
+  }
+  found.touch.normal = found.off * (1 / length(found.off));
+  const std::array<float, 4> weights = nodeWeights(near.kind, found.touch.anchor);
+  float apart = 0;
+  for (size_t i = 0; i < 4; ++i) apart -= weights[i] * dot(found.touch.normal, near.points.at[i]);
+  found.separation = apart - thicknessOf(world, near);
+  return found;
+}
+
+MovingFace movingFace(const WorldData& world, const SoftSurfaces& surfaces, uint32_t soft, uint32_t face) {
+  const SoftPlace& place = surfaces.places[soft];
+  const auto& corner = world.softs[soft].mesh->surface()[face];
+  MovingFace moving;
+  for (size_t i = 0; i < 3; ++i)
+    moving.at[i] = place.points[corner[i]], moving.way[i] = place.ways[corner[i]] + place.drift;
+  return moving;
+}
+
+float meetingTime(const WorldData& world, const StepData& step, uint32_t soft, const ShapePiece& piece, uint32_t face) {
+  const MovingFace moving = movingFace(world, step.softs, soft, face);
+  float fastest = length(piece.turn) * piece.reach;
+  float way = 0;
+  for (const Vec3& one : moving.way) way = std::max(way, length(one - piece.linear));
+  fastest += way;
+  const float thickness = world.softs[soft].radius;
+  const Nearest near =
+      nearestToFace(piece, piece.pose, {moving.at[0], moving.at[1], moving.at[2]}, fastest + kKept * thickness);
+  // What overlaps at the start is on its way out.
+  if (near.apart || near.distance < kUnseen * thickness) return 2;
+  if (piece.front != Vec3{} && dot(piece.front, near.normal) < 0) return 2;
+  const float kept = keptDistance(thickness, near.distance);
+  if (length(piece.turn) == 0) {
+    float least = 1e30f;
+    for (int i = 0; i < 3; ++i) least = std::min(least, dot(near.normal, moving.way[i] - piece.linear));
+    if (near.distance + least >= kept) return 2;
+  }
+  return pieceMeetsFace(piece, moving, kept);
+}
+
+namespace {
+
+SoftTouch named(const NearFeatures& near) {
+  SoftTouch touch;
+  touch.kind = near.kind;
+  touch.first = near.first, touch.firstPart = near.firstPart;
+  touch.second = near.second, touch.secondPart = near.secondPart;
+  return touch;
+}
+SoftTouch named(const ShapePiece& piece, uint32_t soft, uint32_t face) {
+  SoftTouch touch;
+  touch.kind = TouchKind::ShapeFace;
+  touch.first = piece.shape, touch.firstPart = piece.part;
+  touch.second = soft, touch.secondPart = face;
+  return touch;
+}
+
+class Stops {
+ public:
+  Stops(WorldData& world, StepData& step) : world_(world), step_(step), s_(step.softs) {}
+
+  void run() {
+    if (takeSolvedWays(world_, step_) && !anyMeets()) return;
+    placeSolvedSofts(world_, step_);
+    for (int i = 0; i < kMostPasses && pass(i >= kFewPasses); ++i) placeStoppedSofts(world_, step_);
+    if (s_.share.empty()) return;
+    for (const uint32_t slot : step_.order)
+      if (s_.share[slot] < 1) end(slot);
+    s_.share.clear();
+  }
+
+ private:
+  /// Of what the search at the start found near.
+  bool anyMeets() const {
+    for (const NearContact& near : s_.contacts)
+      if (comesNear(near)) return true;
+    bool meets = false;
+    world_.softIds.forEach([&](uint32_t slot) {
+      forEachNearShape(world_, step_, slot, true, [&](const ShapePiece& piece, uint32_t face) {
+        meets = meets || meetingTime(world_, step_, slot, piece, face) <= 1;
+      });
+    });
+    return meets;
+  }
+
+  /// All points of the second side are at least `distance` behind those of the first, along the direction.
+  bool comesNear(const NearContact& near) const {
+    const SoftData &first = world_.softs[near.first], &second = world_.softs[near.second];
+    const SoftPlace &a = s_.places[near.first], &b = s_.places[near.second];
+    const auto along = [&](const SoftPlace& place, uint32_t point) { return dot(near.direction, place.ways[point]); };
+    float back, forth;
+    if (near.kind == TouchKind::EdgeEdge) {
+      const auto& e = first.mesh->parts().features.edges[near.firstPart];
+      const auto& f = second.mesh->parts().features.edges[near.secondPart];
+      back = std::min(along(a, e[0]), along(a, e[1]));
+      forth = std::max(along(b, f[0]), along(b, f[1]));
+    } else {
+      const auto& face = second.mesh->surface()[near.secondPart];
+      back = along(a, near.firstPart);
+      forth = std::max({along(b, face[0]), along(b, face[1]), along(b, face[2])});
+    }
+    const float left = near.distance + back - forth + dot(near.direction, a.drift - b.drift);
+    return left < keptDistance(first.radius + second.radius, near.distance);
+  }
+
+  /// Shortens the ways of what meets, or `ends` them. Whether any became shorter.
+  bool pass(bool ends) {
+    findNearFaces(world_, s_);
+    shorter_ = false;
+    ends_ = ends;
+    factor_.clear();
+    forEachNear(world_, s_, [&](const NearFeatures& near) { meet(meetingTime(world_, s_, near), named(near)); });
+    world_.softIds.forEach([&](uint32_t slot) {
+      forEachNearShape(world_, step_, slot, true, [&](const ShapePiece& piece, uint32_t face) {
+        meet(meetingTime(world_, step_, slot, piece, face), named(piece, slot, face));
+      });
+    });
+    for (size_t slot = 0; slot < factor_.size(); ++slot) s_.share[slot] *= factor_[slot];
+    return shorter_;
+  }
+
+  void meet(float time, const SoftTouch& touch) {
+    if (time > 1 || !mayTouchSoft(world_, touch)) return;
+    if (s_.share.empty()) s_.share.assign(world_.bodies.size(), 1);
+    if (factor_.empty()) factor_.assign(world_.bodies.size(), 1);
+    ++world_.report.impacts;
+    for (const uint32_t body : nodesOf(world_, touch)) {
+      if (!isDynamic(world_, body) || world_.bodies[body].asleep || !(s_.share[body] > 0)) continue;
+      if (!isParticle(world_, body) && (!world_.bodies[body].continuous || isTied(world_, body))) continue;
+      factor_[body] = std::min(factor_[body], ends_ ? 0.0f : time);
+      shorter_ = true;
+    }
+  }
+
+  /// The pose where it stays.
+  void end(uint32_t slot) {
+    const BodyData& body = world_.bodies[slot];
+    const uint32_t index = step_.endOf[slot];
+    StepData::EndState& end = step_.end[index];
+    float* d = step_.d.data() + size_t(8) * step_.rowOfEnd[index];
+    const float share = s_.share[slot];
+    end.position = body.position + toFloat(end.position - body.position) * share;
+    const Vec3 turn = Vec3{d[4], d[5], d[6]} * share;
+    if (!isParticle(world_, slot)) end.rotation = unit(quatFromVector(turn) * body.rotation);
+    for (const int i : {0, 1, 2, 4, 5, 6}) d[i] *= share;
+  }
+
+  WorldData& world_;
+  StepData& step_;
+  SoftSurfaces& s_;
+  std::vector<float> factor_;  ///< by body slot: of its way that it may go, by this pass
+  bool shorter_ = false, ends_ = false;
+};
+
+}  // namespace
+
+void stopSofts(WorldData& world, StepData& step) {
+  if (!world.def.continuous || world.softIds.count() == 0 || world.sleep.awake.empty()) return;
+  Stops(world, step).run();
+}
+
+}  // namespace avbd

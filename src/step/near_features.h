@@ -1,0 +1,130 @@
+// The points, edges and faces of two near faces that may touch, each two once.
+#pragma once
+
+#include <algorithm>
+
+#include "collide/face_features.h"
+#include "geom/soft_mesh_parts.h"
+#include "step/soft_surfaces.h"
+
+namespace avbd {
+
+/// A point before a face, or two edges.
+struct NearFeatures {
+  TouchKind kind = TouchKind::PointFace;
+  uint32_t first = kNone, firstPart = 0;  ///< as of SoftTouch
+  uint32_t second = kNone, secondPart = 0;
+  FourPoints points;  ///< of its nodes in their order, from the first body's origin; ways beyond its drift
+  bool within() const { return first == second; }
+};
+
+/// The features of two bodies, or of one.
+class FeaturePairs {
+ public:
+  FeaturePairs(const WorldData& world, const SoftSurfaces& surfaces, uint32_t a, uint32_t b)
+      : softs_{&world.softs[a], &world.softs[b]},
+        places_{&surfaces.places[a], &surfaces.places[b]},
+        slots_{a, b},
+        shift_(shiftOf(*places_[0], *places_[1])),
+        grown_(softs_[0]->radius + softs_[1]->radius + touchMargin(world)) {}
+
+  template <class F>
+  void forEach(uint32_t faceA, uint32_t faceB, F&& f) const {
+    points(0, faceA, faceB, f);
+    points(1, faceB, faceA, f);
+    edges(faceA, faceB, f);
+  }
+
+ private:
+  struct Moving {
+    Vec3 at, way;
+  };
+  const SurfaceFeatures& features(int side) const { return softs_[side]->mesh->parts().features; }
+  const std::array<uint32_t, 3>& corners(int side, uint32_t face) const { return softs_[side]->mesh->surface()[face]; }
+  /// In the frame of the body of `base`.
+  Moving moving(int side, uint32_t point, int base) const {
+    const Moving own{places_[side]->points[point], places_[side]->ways[point]};
+    if (side == base) return own;
+    return side == 1 ? Moving{own.at + shift_.start, own.way + shift_.drift}
+                     : Moving{own.at - shift_.start, own.way - shift_.drift};
+  }
+  void put(NearFeatures& near, int i, int side, uint32_t point, int base) const {
+    const Moving moving = this->moving(side, point, base);
+    near.points.at[i] = moving.at, near.points.way[i] = moving.way;
+  }
+
+  /// Whether points [0, split) pass near points [split, 4).
+  bool pass(const FourPoints& p, int split) const {
+    const auto apart = [&](auto&& axis) {
+      float low[2] = {1e30f, 1e30f}, high[2] = {-1e30f, -1e30f};
+      for (int i = 0; i < 4; ++i) {
+        const int side = i < split ? 0 : 1;
+        const float start = axis(p.at[i]), end = start + axis(p.way[i]);
+        low[side] = std::min(low[side], std::min(start, end));
+        high[side] = std::max(high[side], std::max(start, end));
+      }
+      return low[0] - grown_ > high[1] || low[1] - grown_ > high[0];
+    };
+    return !apart([](Vec3 v) { return v.x; }) && !apart([](Vec3 v) { return v.y; }) &&
+           !apart([](Vec3 v) { return v.z; });
+  }
+
+  template <class F>
+  void points(int side, uint32_t pointFace, uint32_t face, F&& f) const {
+    const int other = 1 - side;
+    const auto& of = corners(other, face);
+    for (uint32_t k = 0; k < 3; ++k) {
+      if (!features(side).ownsCorner(pointFace, k)) continue;
+      const uint32_t point = corners(side, pointFace)[k];
+      if (slots_[0] == slots_[1] && (point == of[0] || point == of[1] || point == of[2])) continue;
+      NearFeatures near;
+      near.first = slots_[side], near.firstPart = point, near.second = slots_[other], near.secondPart = face;
+      put(near, 0, side, point, side);
+      for (int i = 0; i < 3; ++i) put(near, i + 1, other, of[static_cast<size_t>(i)], side);
+      if (pass(near.points, 1)) f(near);
+    }
+  }
+
+  template <class F>
+  void edges(uint32_t faceA, uint32_t faceB, F&& f) const {
+    const SurfaceFeatures &a = features(0), &b = features(1);
+    for (uint32_t i = 0; i < 3; ++i) {
+      if (!a.ownsEdge(faceA, i)) continue;
+      for (uint32_t k = 0; k < 3; ++k)
+        if (b.ownsEdge(faceB, k)) edge(a.faceEdges[faceA][i], b.faceEdges[faceB][k], f);
+    }
+  }
+
+  template <class F>
+  void edge(uint32_t edgeA, uint32_t edgeB, F&& f) const {
+    const auto &a = features(0).edges[edgeA], &b = features(1).edges[edgeB];
+    // Within one body the lower edge is the first, whatever face found them.
+    const bool within = slots_[0] == slots_[1];
+    if (within && (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1])) return;
+    if (within && edgeB < edgeA) return edge(edgeB, edgeA, f);
+    NearFeatures near;
+    near.kind = TouchKind::EdgeEdge;
+    near.first = slots_[0], near.firstPart = edgeA, near.second = slots_[1], near.secondPart = edgeB;
+    put(near, 0, 0, a[0], 0), put(near, 1, 0, a[1], 0), put(near, 2, 1, b[0], 0), put(near, 3, 1, b[1], 0);
+    if (pass(near.points, 2)) f(near);
+  }
+
+  const SoftData* softs_[2];
+  const SoftPlace* places_[2];
+  uint32_t slots_[2];
+  PlaceShift shift_;
+  float grown_;
+};
+
+/// Calls f(features) for all of the near faces.
+template <class F>
+void forEachNear(const WorldData& world, const SoftSurfaces& surfaces, F&& f) {
+  for (size_t i = 0; i < surfaces.near.size();) {
+    const uint32_t a = surfaces.near[i].softA, b = surfaces.near[i].softB;
+    const FeaturePairs pairs(world, surfaces, a, b);
+    for (; i < surfaces.near.size() && surfaces.near[i].softA == a && surfaces.near[i].softB == b; ++i)
+      pairs.forEach(surfaces.near[i].faceA, surfaces.near[i].faceB, f);
+  }
+}
+
+}  // namespace avbd

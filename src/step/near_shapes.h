@@ -1,0 +1,41 @@
+// Shapes that come near faces of a soft body, piece by piece: convex shapes whole, surfaces by their triangles.
+#pragma once
+
+#include "base/function_ref.h"
+#include "collide/convex.h"
+#include "step/step_data.h"
+
+namespace avbd {
+
+/// A convex shape, or a triangle of a surface, in the frame of a soft body.
+struct ShapePiece {
+  uint32_t shape = kNone;  ///< slot
+  uint32_t part = 0;       ///< triangle of a surface
+  ShapeGeom geom;
+  NearPose pose;
+  Vec3 center;        ///< of mass of its body
+  Vec3 linear, turn;  ///< [m, rad] its body's way in the step
+  Vec3 front;         ///< of a triangle with one side; else 0
+  float reach = 0;    ///< [m] of the body about its centre
+
+  NearPose when(float time) const;
+  Vec3 wayOf(Vec3 point) const { return linear + cross(turn, point - center); }
+};
+
+/// Calls f(piece, face) for all that may meet while the body's points go their ways (SoftPlace) and shapes those of
+/// their bodies: as their velocities say, or as they are solved. Not for triggers, particles and half spaces.
+void forEachNearShape(const WorldData& world, const StepData& step, uint32_t soft, bool solved,
+                      FunctionRef<void(const ShapePiece&, uint32_t face)> f);
+
+/// Nearest points of a piece at a pose (a) and a face (b).
+Nearest nearestToFace(const ShapePiece& piece, const NearPose& pose, const Vec3 (&face)[3], float beyond);
+
+/// A face of a soft body on its way.
+struct MovingFace {
+  Vec3 at[3], way[3];
+  Vec3 when(int i, float time) const { return at[i] + way[i] * time; }
+};
+/// The first time 0 .. 1 at which the two are as near as `least`; more than 1: never.
+float pieceMeetsFace(const ShapePiece& piece, const MovingFace& face, float least);
+
+}  // namespace avbd

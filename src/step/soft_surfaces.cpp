@@ -1,0 +1,191 @@
+// Places of soft bodies, and faces that come near each other (soft_surfaces.h).
+#include "step/soft_surfaces.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "avbd/rows/math.h"
+#include "geom/soft_mesh_parts.h"
+#include "step/free_motion.h"
+#include "step/step_data.h"
+#include "world/mass.h"
+#include "world/soft.h"
+
+namespace avbd {
+
+float touchMargin(const WorldData& world) { return kSpeculative * world.def.lengthUnit; }
+
+PlaceShift shiftOf(const SoftPlace& a, const SoftPlace& b) { return {toFloat(b.origin - a.origin), b.drift - a.drift}; }
+
+namespace {
+
+Vec3 least(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec3 most(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+
+/// Its way if nothing but gravity acts.
+Vec3 freeWay(const WorldData& world, const BodyData& body, float h) {
+  if (body.asleep) return {};
+  return unlocked((body.linearVelocity + world.def.gravity * (body.gravityScale * h)) * h, body.locks);
+}
+
+void boxFaces(const SoftMeshData& mesh, float grown, SoftPlace& place) {
+  const auto faces = mesh.surface();
+  const Vec3 around{grown, grown, grown};
+  place.faces.resize(faces.size()), place.normals.resize(faces.size()), place.endNormals.resize(faces.size());
+  for (size_t f = 0; f < faces.size(); ++f) {
+    Vec3 lower = place.points[faces[f][0]], upper = lower;
+    for (const uint32_t i : faces[f]) {
+      const Vec3 start = place.points[i], end = start + place.ways[i];
+      lower = least(lower, least(start, end)), upper = most(upper, most(start, end));
+    }
+    place.faces[f] = {lower - around, upper + around};
+    const auto start = [&](size_t k) { return place.points[faces[f][k]]; };
+    const auto end = [&](size_t k) { return start(k) + place.ways[faces[f][k]]; };
+    place.normals[f] = cross(start(1) - start(0), start(2) - start(0));
+    place.endNormals[f] = cross(end(1) - end(0), end(2) - end(0));
+  }
+  mesh.faceTree().refit(place.faces, place.bounds);
+}
+
+template <class WayOf>
+void place(const WorldData& world, const SoftData& soft, bool drifts, SoftPlace& out, WayOf&& wayOf) {
+  const size_t count = soft.bodies.size();
+  out.origin = world.bodies[soft.bodies[0]].position;
+  out.points.resize(count), out.ways.resize(count);
+  Vec3 sum;
+  float fastest = 0;
+  for (size_t i = 0; i < count; ++i) {
+    out.points[i] = toFloat(world.bodies[soft.bodies[i]].position - out.origin);
+    const Vec3 way = out.ways[i] = wayOf(soft.bodies[i]);
+    sum = sum + way;
+    fastest = std::max(fastest, dot(way, way));
+  }
+  out.drift = drifts ? sum * (1 / static_cast<float>(count)) : Vec3{};
+  for (Vec3& way : out.ways) way = way - out.drift;
+  out.fastest = rows::sqrt(fastest);
+  boxFaces(*soft.mesh, soft.radius + 0.5f * touchMargin(world), out);
+}
+
+template <class WayOf>
+void placeAll(const WorldData& world, StepData& step, bool drifts, WayOf&& wayOf) {
+  step.softs.places.resize(world.softs.size());
+  world.softIds.forEach(
+      [&](uint32_t slot) { place(world, world.softs[slot], drifts, step.softs.places[slot], wayOf); });
+}
+
+/// Bounds of a body on its way in the frame of another.
+Aabb boundsFrom(const SoftPlace& from, const SoftPlace& place) {
+  const PlaceShift shift = shiftOf(from, place);
+  return {place.bounds[0].lower + shift.start + least({}, shift.drift),
+          place.bounds[0].upper + shift.start + most({}, shift.drift)};
+}
+
+/// Bodies by their lower ends along x.
+void sweep(const WorldData& world, SoftSurfaces& s) {
+  s.ends.clear(), s.pairs.clear();
+  world.softIds.forEach([&](uint32_t slot) {
+    const SoftPlace& place = s.places[slot];
+    const float to = place.drift.x;
+    s.ends.push_back({place.origin.x + double{place.bounds[0].lower.x + std::min(to, 0.0f)},
+                      place.origin.x + double{place.bounds[0].upper.x + std::max(to, 0.0f)}, slot});
+  });
+  std::sort(s.ends.begin(), s.ends.end(), [](const SoftSurfaces::Ends& a, const SoftSurfaces::Ends& b) {
+    return std::tie(a.lower, a.slot) < std::tie(b.lower, b.slot);
+  });
+  for (size_t i = 0; i < s.ends.size(); ++i)
+    for (size_t k = i + 1; k < s.ends.size() && s.ends[k].lower <= s.ends[i].upper; ++k) {
+      const uint32_t a = std::min(s.ends[i].slot, s.ends[k].slot), b = std::max(s.ends[i].slot, s.ends[k].slot);
+      if (isAsleep(world, world.softs[a]) && isAsleep(world, world.softs[b])) continue;
+      if (overlaps(s.places[a].bounds[0], boundsFrom(s.places[a], s.places[b]))) s.pairs.push_back({a, b});
+    }
+  std::sort(s.pairs.begin(), s.pairs.end());
+}
+
+/// Whether two normals differ by less than 60 degrees.
+bool isAlike(Vec3 a, Vec3 b) {
+  const float along = dot(a, b);
+  return along > 0 && 4 * along * along > dot(a, a) * dot(b, b);
+}
+
+constexpr float kBeside = 1.4f;  ///< sizes of faces: within that at rest two lie beside each other
+
+/// What lies beside each other at rest is near only where the surface bends back between.
+void nearWithin(const SoftData& soft, const SoftPlace& place, uint32_t slot, std::vector<NearFaces>& near) {
+  const std::vector<Vec3>& rest = soft.mesh->parts().faceCentres;
+  const float beside = kBeside * soft.mesh->faceSize();
+  const auto liesBeside = [&](uint32_t a, uint32_t b) {
+    const Vec3 off = rest[a] - rest[b];
+    return dot(off, off) < beside * beside && isAlike(place.normals[a], place.normals[b]) &&
+           isAlike(place.endNormals[a], place.endNormals[b]);
+  };
+  soft.mesh->faceTree().pairs({place.faces, place.bounds, {}, {}}, [&](uint32_t a, uint32_t b) {
+    if (!liesBeside(a, b)) near.push_back({slot, slot, a, b});
+  });
+}
+
+}  // namespace
+
+void placeSofts(const WorldData& world, StepData& step) {
+  placeAll(world, step, true, [&](uint32_t body) { return freeWay(world, world.bodies[body], step.h); });
+}
+
+namespace {
+
+constexpr float kUsed = 0.75f;  ///< of the radius: how far beyond what is thought a point may go
+
+Vec3 solvedWay(const WorldData& world, const StepData& step, uint32_t body) {
+  if (world.bodies[body].asleep) return {};
+  return toFloat(step.end[step.endOf[body]].position - world.bodies[body].position) * step.softs.shareOf(body);
+}
+
+}  // namespace
+
+void placeSolvedSofts(const WorldData& world, StepData& step) {
+  step.softs.share.clear();
+  placeAll(world, step, true, [&](uint32_t body) { return solvedWay(world, step, body); });
+}
+
+bool takeSolvedWays(const WorldData& world, StepData& step) {
+  step.softs.share.clear();
+  bool within = true;
+  world.softIds.forEach([&](uint32_t slot) {
+    SoftPlace& place = step.softs.places[slot];
+    const SoftData& soft = world.softs[slot];
+    // Bounds were grown by more than this, so that those of two that do not overlap leave a gap.
+    const float slack = kUsed * soft.radius;
+    const auto inside = [&](float way, float thought) {
+      return way >= std::min(thought, 0.0f) - slack && way <= std::max(thought, 0.0f) + slack;
+    };
+    for (size_t i = 0; i < soft.bodies.size(); ++i) {
+      const Vec3 way = solvedWay(world, step, soft.bodies[i]) - place.drift, thought = place.ways[i];
+      within = within && inside(way.x, thought.x) && inside(way.y, thought.y) && inside(way.z, thought.z);
+      place.ways[i] = way;
+    }
+  });
+  return within;
+}
+
+void placeStoppedSofts(const WorldData& world, StepData& step) {
+  placeAll(world, step, false, [&](uint32_t body) { return solvedWay(world, step, body); });
+}
+
+void findNearFaces(const WorldData& world, SoftSurfaces& s) {
+  sweep(world, s);
+  s.near.clear();
+  for (const auto& [a, b] : s.pairs) {
+    const SoftData &softA = world.softs[a], &softB = world.softs[b];
+    const PlaceShift shift = shiftOf(s.places[a], s.places[b]);
+    const Vec3 lower = shift.start + least({}, shift.drift), upper = shift.start + most({}, shift.drift);
+    softA.mesh->faceTree().pairs({s.places[a].faces, s.places[a].bounds, {}, {}}, softB.mesh->faceTree(),
+                                 {s.places[b].faces, s.places[b].bounds, lower, upper},
+                                 [&](uint32_t faceA, uint32_t faceB) {
+                                   s.near.push_back({a, b, faceA, faceB});
+                                 });
+  }
+  world.softIds.forEach([&](uint32_t slot) {
+    const SoftData& soft = world.softs[slot];
+    if (soft.selfContact && !isAsleep(world, soft)) nearWithin(soft, s.places[slot], slot, s.near);
+  });
+}
+
+}  // namespace avbd
