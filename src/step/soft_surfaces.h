@@ -18,11 +18,11 @@ struct StepData;
 /// A soft body in this step.
 struct SoftPlace {
   Vec3d origin;
-  Vec3 drift;                ///< [m] mean of the ways
-  std::vector<Vec3> points;  ///< from the origin, at the start
-  std::vector<Vec3> ways;    ///< [m] less the drift
-  /// Of the faces, at the start and at the end; not unit.
-  std::vector<Vec3> normals, endNormals;
+  Vec3 drift;                             ///< [m] mean of the ways
+  std::vector<Vec3> points;               ///< from the origin, at the start
+  std::vector<Vec3> ways;                 ///< [m] less the drift
+  std::vector<Vec3> normals, endNormals;  ///< of the faces, unit; 0 of one without area
+  std::vector<uint8_t> flat;              ///< by face: it and all around it face about the same way, all the time
   std::vector<Aabb> faces;   ///< all that a face passes over but for the drift, grown by half of what is near
   std::vector<Aabb> bounds;  ///< of the tree's nodes
   float fastest = 0;         ///< [m] of the ways with the drift
@@ -52,7 +52,14 @@ struct NearContact {
   float distance = 0;
 };
 
+/// Room to find `flat` in.
+struct FlatScratch {
+  std::vector<Vec3> normals;  ///< by point
+  std::vector<uint8_t> bent;  ///< likewise
+};
+
 struct SoftSurfaces {
+  FlatScratch flatness;
   std::vector<NearContact> contacts;  ///< of the search at the start
   std::vector<SoftPlace> places;      ///< by slot
   std::vector<NearFaces> near;        ///< by the slots
