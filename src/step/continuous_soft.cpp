@@ -136,9 +136,8 @@ class Stops {
   Stops(WorldData& world, StepData& step) : world_(world), step_(step), s_(step.softs) {}
 
   void run() {
-    if (takeSolvedWays(world_, step_) && !anyMeets()) return;
-    placeSolvedSofts(world_, step_);
-    for (int i = 0; i < kMostPasses && pass(i >= kFewPasses); ++i) placeStoppedSofts(world_, step_);
+    checkFirst();
+    for (int i = 0; i < kMostPasses && shorten(i >= kFewPasses); ++i) checkAgain();
     if (s_.share.empty()) return;
     for (const uint32_t slot : step_.order)
       if (s_.share[slot] < 1) end(slot);
@@ -146,17 +145,35 @@ class Stops {
   }
 
  private:
-  /// Of what the search at the start found near.
-  bool anyMeets() const {
-    for (const NearContact& near : s_.contacts)
-      if (comesNear(near)) return true;
-    bool meets = false;
+  /// What the search at the start found near; all, where points went elsewhere than they were thought to go.
+  void checkFirst() {
+    if (!takeSolvedWays(world_, step_)) {
+      placeSolvedSofts(world_, step_);
+      findNearFaces(world_, s_);
+      checkNear();
+    } else {
+      for (const NearContact& near : s_.contacts)
+        if (comesNear(near)) check(FeaturePairs(world_, s_, near.first, near.second).features(near));
+    }
+    checkShapes();
+  }
+
+  void checkAgain() {
+    takeShares(world_, step_, changed_);
+    checkNear();
+    checkShapes();
+  }
+
+  void checkNear() {
+    forEachNear(world_, s_, [&](const NearFeatures& near) { check(near); });
+  }
+  void check(const NearFeatures& near) { meet(meetingTime(world_, s_, near), named(near)); }
+  void checkShapes() {
     world_.softIds.forEach([&](uint32_t slot) {
       forEachNearShape(world_, step_, slot, true, [&](const ShapePiece& piece, uint32_t face) {
-        meets = meets || meetingTime(world_, step_, slot, piece, face) <= 1;
+        meet(meetingTime(world_, step_, slot, piece, face), named(piece, slot, face));
       });
     });
-    return meets;
   }
 
   /// All points of the second side are at least `distance` behind those of the first, along the direction.
@@ -179,33 +196,35 @@ class Stops {
     return left < keptDistance(first.radius + second.radius, near.distance);
   }
 
-  /// Shortens the ways of what meets, or `ends` them. Whether any became shorter.
-  bool pass(bool ends) {
-    findNearFaces(world_, s_);
-    shorter_ = false;
-    ends_ = ends;
-    factor_.clear();
-    forEachNear(world_, s_, [&](const NearFeatures& near) { meet(meetingTime(world_, s_, near), named(near)); });
-    world_.softIds.forEach([&](uint32_t slot) {
-      forEachNearShape(world_, step_, slot, true, [&](const ShapePiece& piece, uint32_t face) {
-        meet(meetingTime(world_, step_, slot, piece, face), named(piece, slot, face));
-      });
-    });
-    for (size_t slot = 0; slot < factor_.size(); ++slot) s_.share[slot] *= factor_[slot];
-    return shorter_;
-  }
-
   void meet(float time, const SoftTouch& touch) {
     if (time > 1 || !mayTouchSoft(world_, touch)) return;
-    if (s_.share.empty()) s_.share.assign(world_.bodies.size(), 1);
-    if (factor_.empty()) factor_.assign(world_.bodies.size(), 1);
     ++world_.report.impacts;
     for (const uint32_t body : nodesOf(world_, touch)) {
-      if (!isDynamic(world_, body) || world_.bodies[body].asleep || !(s_.share[body] > 0)) continue;
+      if (!isDynamic(world_, body) || world_.bodies[body].asleep || !(s_.shareOf(body) > 0)) continue;
       if (!isParticle(world_, body) && (!world_.bodies[body].continuous || isTied(world_, body))) continue;
-      factor_[body] = std::min(factor_[body], ends_ ? 0.0f : time);
-      shorter_ = true;
+      met_.push_back({body, time});
     }
+  }
+
+  /// Shortens the ways of what met, or `ends` them. Whether any became shorter.
+  bool shorten(bool ends) {
+    if (met_.empty()) return false;
+    if (s_.share.empty()) s_.share.assign(world_.bodies.size(), 1);
+    std::sort(met_.begin(), met_.end());
+    changed_.clear();
+    for (size_t i = 0; i < met_.size(); ++i) {
+      const auto& [body, time] = met_[i];
+      if (i > 0 && met_[i - 1].first == body) continue;
+      s_.share[body] *= ends ? 0.0f : time;
+      if (isParticle(world_, body)) changed_.push_back({world_.bodies[body].soft, pointOf(body)});
+    }
+    met_.clear();
+    return true;
+  }
+
+  uint32_t pointOf(uint32_t body) const {
+    const std::vector<uint32_t>& all = world_.softs[world_.bodies[body].soft].bodies;
+    return static_cast<uint32_t>(std::find(all.begin(), all.end(), body) - all.begin());
   }
 
   /// The pose where it stays.
@@ -224,8 +243,8 @@ class Stops {
   WorldData& world_;
   StepData& step_;
   SoftSurfaces& s_;
-  std::vector<float> factor_;  ///< by body slot: of its way that it may go, by this pass
-  bool shorter_ = false, ends_ = false;
+  std::vector<std::pair<uint32_t, float>> met_;   ///< bodies that meet, and when
+  std::vector<std::array<uint32_t, 2>> changed_;  ///< soft bodies and points whose ways became shorter
 };
 
 }  // namespace

@@ -26,7 +26,23 @@ class FeaturePairs {
         places_{&surfaces.places[a], &surfaces.places[b]},
         slots_{a, b},
         shift_(shiftOf(*places_[0], *places_[1])),
-        grown_(softs_[0]->radius + softs_[1]->radius + touchMargin(world)) {}
+        lower_(shift_.start +
+               Vec3{std::min(shift_.drift.x, 0.0f), std::min(shift_.drift.y, 0.0f), std::min(shift_.drift.z, 0.0f)}),
+        upper_(shift_.start +
+               Vec3{std::max(shift_.drift.x, 0.0f), std::max(shift_.drift.y, 0.0f), std::max(shift_.drift.z, 0.0f)}) {}
+
+  /// The features of a contact whose first body is a, its second b.
+  NearFeatures features(const NearContact& contact) const {
+    NearFeatures near;
+    near.kind = contact.kind;
+    near.first = contact.first, near.firstPart = contact.firstPart;
+    near.second = contact.second, near.secondPart = contact.secondPart;
+    if (near.kind == TouchKind::EdgeEdge)
+      putEdges(near);
+    else
+      putFace(near, 0);
+    return near;
+  }
 
   template <class F>
   void forEach(uint32_t faceA, uint32_t faceB, F&& f) const {
@@ -53,21 +69,17 @@ class FeaturePairs {
     near.points.at[i] = moving.at, near.points.way[i] = moving.way;
   }
 
-  /// Whether points [0, split) pass near points [split, 4).
-  bool pass(const FourPoints& p, int split) const {
-    const auto apart = [&](auto&& axis) {
-      float low[2] = {1e30f, 1e30f}, high[2] = {-1e30f, -1e30f};
-      for (int i = 0; i < 4; ++i) {
-        const int side = i < split ? 0 : 1;
-        const float start = axis(p.at[i]), end = start + axis(p.way[i]);
-        low[side] = std::min(low[side], std::min(start, end));
-        high[side] = std::max(high[side], std::max(start, end));
-      }
-      return low[0] - grown_ > high[1] || low[1] - grown_ > high[0];
-    };
-    return !apart([](Vec3 v) { return v.x; }) && !apart([](Vec3 v) { return v.y; }) &&
-           !apart([](Vec3 v) { return v.z; });
+  void putFace(NearFeatures& near, int side) const {
+    const auto& of = corners(1 - side, near.secondPart);
+    put(near, 0, side, near.firstPart, side);
+    for (int i = 0; i < 3; ++i) put(near, i + 1, 1 - side, of[static_cast<size_t>(i)], side);
   }
+  void putEdges(NearFeatures& near) const {
+    const auto &a = features(0).edges[near.firstPart], &b = features(1).edges[near.secondPart];
+    put(near, 0, 0, a[0], 0), put(near, 1, 0, a[1], 0), put(near, 2, 1, b[0], 0), put(near, 3, 1, b[1], 0);
+  }
+  /// Of a box of the first body and one of the second.
+  bool pass(const Aabb& a, const Aabb& b) const { return overlaps(a, {b.lower + lower_, b.upper + upper_}); }
 
   template <class F>
   void points(int side, uint32_t pointFace, uint32_t face, F&& f) const {
@@ -77,11 +89,12 @@ class FeaturePairs {
       if (!features(side).ownsCorner(pointFace, k)) continue;
       const uint32_t point = corners(side, pointFace)[k];
       if (slots_[0] == slots_[1] && (point == of[0] || point == of[1] || point == of[2])) continue;
+      const Aabb &ball = places_[side]->pointBoxes[point], &box = places_[other]->faces[face];
+      if (side == 0 ? !pass(ball, box) : !pass(box, ball)) continue;
       NearFeatures near;
       near.first = slots_[side], near.firstPart = point, near.second = slots_[other], near.secondPart = face;
-      put(near, 0, side, point, side);
-      for (int i = 0; i < 3; ++i) put(near, i + 1, other, of[static_cast<size_t>(i)], side);
-      if (pass(near.points, 1)) f(near);
+      putFace(near, side);
+      f(near);
     }
   }
 
@@ -102,18 +115,19 @@ class FeaturePairs {
     const bool within = slots_[0] == slots_[1];
     if (within && (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1])) return;
     if (within && edgeB < edgeA) return edge(edgeB, edgeA, f);
+    if (!pass(places_[0]->edgeBoxes[edgeA], places_[1]->edgeBoxes[edgeB])) return;
     NearFeatures near;
     near.kind = TouchKind::EdgeEdge;
     near.first = slots_[0], near.firstPart = edgeA, near.second = slots_[1], near.secondPart = edgeB;
-    put(near, 0, 0, a[0], 0), put(near, 1, 0, a[1], 0), put(near, 2, 1, b[0], 0), put(near, 3, 1, b[1], 0);
-    if (pass(near.points, 2)) f(near);
+    putEdges(near);
+    f(near);
   }
 
   const SoftData* softs_[2];
   const SoftPlace* places_[2];
   uint32_t slots_[2];
   PlaceShift shift_;
-  float grown_;
+  Vec3 lower_, upper_;  ///< of b's boxes in a's frame
 };
 
 /// Calls f(features) for all of the near faces.

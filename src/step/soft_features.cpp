@@ -110,13 +110,16 @@ void meet(const WorldData& world, StepData& step, const NearFeatures& near) {
   found.touch.second = near.second, found.touch.secondPart = near.secondPart;
   found.touch.anchor = contact.place;
   found.off = contact.off;
+  if (contact.distance <= kNoDirection * thickness) return;
+  const Vec3 direction = contact.off * (1 / contact.distance);
+  const float way = closing(near, direction), reach = margin + std::min(way < 0 ? -way : way, size);
+  if (contact.distance > thickness + reach) return;
   const bool passed = hasPassed(world, found.touch, contact.off);
   thickness = thicknessOf(world, near);
-  if (contact.distance <= kNoDirection * thickness) return;
-  found.touch.normal = contact.off * ((passed ? -1.0f : 1.0f) / contact.distance);
+  found.touch.normal = passed ? -direction : direction;
   found.separation = (passed ? -contact.distance : contact.distance) - thickness;
-  const float way = std::max(closing(near, found.touch.normal), 0.0f);
-  if (found.separation > margin + std::min(way, size) || !mayTouchSoft(world, found.touch)) return;
+  if (found.separation > margin + std::min(std::max(passed ? -way : way, 0.0f), size)) return;
+  if (!mayTouchSoft(world, found.touch)) return;
   addTouch(world, step, found);
 }
 

@@ -63,27 +63,48 @@ void findFlat(const SoftMeshData& mesh, FlatScratch& scratch, SoftPlace& place) 
   keepFlat(mesh.surface(), place.endNormals, scratch, place.flat);
 }
 
-void boxFaces(const SoftMeshData& mesh, float grown, SoftPlace& place) {
+Aabb grown(const Aabb& box, float by) {
+  const Vec3 around{by, by, by};
+  return {box.lower - around, box.upper + around};
+}
+Aabb joined(const Aabb& a, const Aabb& b) { return {least(a.lower, b.lower), most(a.upper, b.upper)}; }
+
+/// Of faces and edges from those of their points.
+void boxFeatures(const SoftMeshData& mesh, SoftPlace& place) {
   const auto faces = mesh.surface();
-  const Vec3 around{grown, grown, grown};
-  place.faces.resize(faces.size()), place.normals.resize(faces.size()), place.endNormals.resize(faces.size());
+  const auto& edges = mesh.parts().features.edges;
+  place.faces.resize(faces.size()), place.edgeBoxes.resize(edges.size());
+  const auto box = [&](uint32_t point) -> const Aabb& { return place.pointBoxes[point]; };
+  for (size_t f = 0; f < faces.size(); ++f)
+    place.faces[f] = joined(joined(box(faces[f][0]), box(faces[f][1])), box(faces[f][2]));
+  for (size_t e = 0; e < edges.size(); ++e) place.edgeBoxes[e] = joined(box(edges[e][0]), box(edges[e][1]));
+  mesh.faceTree().refit(place.faces, place.bounds);
+}
+
+void boxPoints(const SoftMeshData& mesh, float by, SoftPlace& place) {
+  place.pointBoxes.resize(place.points.size());
+  for (size_t i = 0; i < place.points.size(); ++i) {
+    const Vec3 start = place.points[i], end = start + place.ways[i];
+    place.pointBoxes[i] = grown({least(start, end), most(start, end)}, by);
+  }
+  boxFeatures(mesh, place);
+}
+
+void findNormals(const SoftMeshData& mesh, SoftPlace& place) {
+  const auto faces = mesh.surface();
+  place.normals.resize(faces.size()), place.endNormals.resize(faces.size());
   for (size_t f = 0; f < faces.size(); ++f) {
-    Vec3 lower = place.points[faces[f][0]], upper = lower;
-    for (const uint32_t i : faces[f]) {
-      const Vec3 start = place.points[i], end = start + place.ways[i];
-      lower = least(lower, least(start, end)), upper = most(upper, most(start, end));
-    }
-    place.faces[f] = {lower - around, upper + around};
     const auto start = [&](size_t k) { return place.points[faces[f][k]]; };
     const auto end = [&](size_t k) { return start(k) + place.ways[faces[f][k]]; };
     place.normals[f] = normalOf(start(0), start(1), start(2));
     place.endNormals[f] = normalOf(end(0), end(1), end(2));
   }
-  mesh.faceTree().refit(place.faces, place.bounds);
 }
 
+float growth(const WorldData& world, const SoftData& soft) { return soft.radius + 0.5f * touchMargin(world); }
+
 template <class WayOf>
-void place(const WorldData& world, const SoftData& soft, bool drifts, SoftPlace& out, WayOf&& wayOf) {
+void place(const WorldData& world, const SoftData& soft, SoftPlace& out, WayOf&& wayOf) {
   const size_t count = soft.bodies.size();
   out.origin = world.bodies[soft.bodies[0]].position;
   out.points.resize(count), out.ways.resize(count);
@@ -95,17 +116,17 @@ void place(const WorldData& world, const SoftData& soft, bool drifts, SoftPlace&
     sum = sum + way;
     fastest = std::max(fastest, dot(way, way));
   }
-  out.drift = drifts ? sum * (1 / static_cast<float>(count)) : Vec3{};
+  out.drift = sum * (1 / static_cast<float>(count));
   for (Vec3& way : out.ways) way = way - out.drift;
   out.fastest = rows::sqrt(fastest);
-  boxFaces(*soft.mesh, soft.radius + 0.5f * touchMargin(world), out);
+  boxPoints(*soft.mesh, growth(world, soft), out);
+  findNormals(*soft.mesh, out);
 }
 
 template <class WayOf>
-void placeAll(const WorldData& world, StepData& step, bool drifts, WayOf&& wayOf) {
+void placeAll(const WorldData& world, StepData& step, WayOf&& wayOf) {
   step.softs.places.resize(world.softs.size());
-  world.softIds.forEach(
-      [&](uint32_t slot) { place(world, world.softs[slot], drifts, step.softs.places[slot], wayOf); });
+  world.softIds.forEach([&](uint32_t slot) { place(world, world.softs[slot], step.softs.places[slot], wayOf); });
 }
 
 /// Bounds of a body on its way in the frame of another.
@@ -155,7 +176,7 @@ void nearWithin(const SoftData& soft, const SoftPlace& place, uint32_t slot, std
 }  // namespace
 
 void placeSofts(const WorldData& world, StepData& step) {
-  placeAll(world, step, true, [&](uint32_t body) { return freeWay(world, world.bodies[body], step.h); });
+  placeAll(world, step, [&](uint32_t body) { return freeWay(world, world.bodies[body], step.h); });
 }
 
 namespace {
@@ -171,7 +192,7 @@ Vec3 solvedWay(const WorldData& world, const StepData& step, uint32_t body) {
 
 void placeSolvedSofts(const WorldData& world, StepData& step) {
   step.softs.share.clear();
-  placeAll(world, step, true, [&](uint32_t body) { return solvedWay(world, step, body); });
+  placeAll(world, step, [&](uint32_t body) { return solvedWay(world, step, body); });
 }
 
 bool takeSolvedWays(const WorldData& world, StepData& step) {
@@ -194,8 +215,51 @@ bool takeSolvedWays(const WorldData& world, StepData& step) {
   return within;
 }
 
-void placeStoppedSofts(const WorldData& world, StepData& step) {
-  placeAll(world, step, false, [&](uint32_t body) { return solvedWay(world, step, body); });
+namespace {
+
+/// Faces of all bodies that a face comes near.
+void nearFace(const WorldData& world, SoftSurfaces& s, uint32_t slot, uint32_t face) {
+  const SoftPlace& place = s.places[slot];
+  world.softIds.forEach([&](uint32_t other) {
+    if (other == slot && !world.softs[slot].selfContact) return;
+    const PlaceShift shift = shiftOf(s.places[other], place);
+    const Vec3 lower = shift.start + least({}, shift.drift), upper = shift.start + most({}, shift.drift);
+    const Aabb box{place.faces[face].lower + lower, place.faces[face].upper + upper};
+    world.softs[other].mesh->faceTree().query(s.places[other].bounds, box, [&](uint32_t near) {
+      if (!overlaps(s.places[other].faces[near], box)) return;
+      if (slot < other || (slot == other && face < near)) s.near.push_back({slot, other, face, near});
+      if (other < slot || (slot == other && near < face)) s.near.push_back({other, slot, near, face});
+    });
+  });
+}
+
+}  // namespace
+
+void takeShares(const WorldData& world, StepData& step, const std::vector<std::array<uint32_t, 2>>& points) {
+  SoftSurfaces& s = step.softs;
+  std::vector<std::vector<uint8_t>> touched(world.softs.size());
+  for (const auto& [slot, point] : points) {
+    SoftPlace& place = s.places[slot];
+    const SoftData& soft = world.softs[slot];
+    place.ways[point] = solvedWay(world, step, soft.bodies[point]) - place.drift;
+    const Vec3 start = place.points[point], end = start + place.ways[point];
+    const Aabb way = grown({least(start, end), most(start, end)}, growth(world, soft));
+    place.pointBoxes[point] = joined(place.pointBoxes[point], way);
+    touched[slot].resize(soft.bodies.size());
+    touched[slot][point] = 1;
+  }
+  s.near.clear();
+  for (uint32_t slot = 0; slot < touched.size(); ++slot)
+    if (!touched[slot].empty()) boxFeatures(*world.softs[slot].mesh, s.places[slot]);
+  for (uint32_t slot = 0; slot < touched.size(); ++slot) {
+    if (touched[slot].empty()) continue;
+    const auto faces = world.softs[slot].mesh->surface();
+    for (uint32_t f = 0; f < faces.size(); ++f)
+      if (touched[slot][faces[f][0]] || touched[slot][faces[f][1]] || touched[slot][faces[f][2]])
+        nearFace(world, s, slot, f);
+  }
+  std::sort(s.near.begin(), s.near.end());
+  s.near.erase(std::unique(s.near.begin(), s.near.end()), s.near.end());
 }
 
 void findNearFaces(const WorldData& world, SoftSurfaces& s) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <vector>
 
 #include "geom/face_tree.h"
@@ -23,7 +24,8 @@ struct SoftPlace {
   std::vector<Vec3> ways;                 ///< [m] less the drift
   std::vector<Vec3> normals, endNormals;  ///< of the faces, unit; 0 of one without area
   std::vector<uint8_t> flat;              ///< by face: it and all around it face about the same way, all the time
-  std::vector<Aabb> faces;   ///< all that a face passes over but for the drift, grown by half of what is near
+  /// All that faces, points and edges pass over but for the drift, grown by half of what is near.
+  std::vector<Aabb> faces, pointBoxes, edgeBoxes;
   std::vector<Aabb> bounds;  ///< of the tree's nodes
   float fastest = 0;         ///< [m] of the ways with the drift
 };
@@ -32,6 +34,7 @@ struct SoftPlace {
 struct NearFaces {
   uint32_t softA = kNone, softB = kNone;  ///< slots; the same within one body
   uint32_t faceA = 0, faceB = 0;
+  friend auto operator<=>(const NearFaces&, const NearFaces&) = default;
 };
 
 /// A touch of this step.
@@ -88,10 +91,11 @@ void placeSolvedSofts(const WorldData& world, StepData& step);
 /// The points take the ways that the solve gave them; drift and bounds stay. Whether no two features that `contacts`
 /// does not hold may have come near each other.
 bool takeSolvedWays(const WorldData& world, StepData& step);
-/// The same with shares of those (SoftSurfaces::share), and no drift.
-void placeStoppedSofts(const WorldData& world, StepData& step);
 /// Fills `pairs` and `near`.
 void findNearFaces(const WorldData& world, SoftSurfaces& surfaces);
+/// Points take shares of their solved ways (SoftSurfaces::share), and bounds hold the new ways too; `near` becomes what
+/// faces with such a point (by slot and point) come near.
+void takeShares(const WorldData& world, StepData& step, const std::vector<std::array<uint32_t, 2>>& points);
 /// [m] within which touches are looked for, beyond the thickness and the ways.
 float touchMargin(const WorldData& world);
 
