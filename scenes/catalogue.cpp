@@ -133,7 +133,8 @@ std::vector<Line> collect() {
                            sleepLines,
                            softLines,
                            clothLines,
-                           selfLines})
+                           selfLines,
+                           mixedLines})
     for (Line& line : group()) list.push_back(std::move(line));
   const auto rank = [](const Line& line) {
     return std::find(kOrder.begin(), kOrder.end(), line.name) - kOrder.begin();
@@ -152,6 +153,7 @@ const std::vector<Scene>& all() {
     append(list, stackScenes());
     append(list, netScenes());
     append(list, softScenes());
+    append(list, mixedScenes());
     append(list, scissorScenes());
     append(list, ragdollScenes());
     append(list, sleeperScenes());

@@ -10,6 +10,7 @@ std::vector<Scene> stackScenes();
 std::vector<Scene> chainScenes();
 std::vector<Scene> netScenes();
 std::vector<Scene> softScenes();
+std::vector<Scene> mixedScenes();
 std::vector<Scene> scissorScenes();
 std::vector<Scene> ragdollScenes();
 std::vector<Scene> sleeperScenes();
@@ -55,6 +56,7 @@ std::vector<Line> sleepLines();
 std::vector<Line> softLines();
 std::vector<Line> clothLines();
 std::vector<Line> selfLines();
+std::vector<Line> mixedLines();
 std::vector<Line> badInputLines();
 /// What is not built yet, by name.
 std::vector<Line> skippedLines();

@@ -13,7 +13,6 @@ void skip(std::vector<Line>& list, const char* group, std::initializer_list<cons
 std::vector<Line> skippedLines() {
   std::vector<Line> list;
   skip(list, "A", {"robots"}, "needs robots from Debian packages that a bare machine lacks; they are tested in io/");
-  skip(list, "S", {"mixed"}, "cloth and contacts of elements are not built yet");
   skip(list, "D", {"soak"}, "a million steps are not run yet");
   return list;
 }
