@@ -2,14 +2,12 @@
 //
 // After the solve the ways of all points are known. Two features whose ends are still parted by the plane that parts
 // them at the start have not met on straight ways; of others conservative advancement tells when they come too near.
-// Points that take part then go only as far as keeps them apart, in the end nowhere, where they start apart; and so do
-// bodies that meet them. Velocities stay, so the next step solves the contact.
+// Points that take part then go only as far as keeps them apart, in the end nowhere, where they start apart. Velocities
+// stay, so the next step solves the contact.
 #include <algorithm>
 
 #include "avbd/rows/math.h"
-#include "step/free_motion.h"
 #include "step/soft_touches.h"
-#include "world/joints.h"
 #include "world/soft.h"
 #include "world/soft_touch.h"
 
@@ -200,8 +198,8 @@ class Stops {
     if (time > 1 || !mayTouchSoft(world_, touch)) return;
     ++world_.report.impacts;
     for (const uint32_t body : nodesOf(world_, touch)) {
-      if (!isDynamic(world_, body) || world_.bodies[body].asleep || !(s_.shareOf(body) > 0)) continue;
-      if (!isParticle(world_, body) && (!world_.bodies[body].continuous || isTied(world_, body))) continue;
+      // A body that meets a surface goes on: what it touches besides would not know of its stop.
+      if (!isParticle(world_, body) || world_.bodies[body].asleep || !(s_.shareOf(body) > 0)) continue;
       met_.push_back({body, time});
     }
   }
@@ -216,7 +214,7 @@ class Stops {
       const auto& [body, time] = met_[i];
       if (i > 0 && met_[i - 1].first == body) continue;
       s_.share[body] *= ends ? 0.0f : time;
-      if (isParticle(world_, body)) changed_.push_back({world_.bodies[body].soft, pointOf(body)});
+      changed_.push_back({world_.bodies[body].soft, pointOf(body)});
     }
     met_.clear();
     return true;
@@ -235,9 +233,7 @@ class Stops {
     float* d = step_.d.data() + size_t(8) * step_.rowOfEnd[index];
     const float share = s_.share[slot];
     end.position = body.position + toFloat(end.position - body.position) * share;
-    const Vec3 turn = Vec3{d[4], d[5], d[6]} * share;
-    if (!isParticle(world_, slot)) end.rotation = unit(quatFromVector(turn) * body.rotation);
-    for (const int i : {0, 1, 2, 4, 5, 6}) d[i] *= share;
+    for (int i = 0; i < 3; ++i) d[i] *= share;
   }
 
   WorldData& world_;

@@ -65,9 +65,8 @@ class NearSearch {
     if (solved_ && body.type == BodyType::Dynamic) {
       const uint32_t end = step_.endOf[slot];
       const float* d = step_.d.data() + size_t(8) * step_.rowOfEnd[end];
-      const float share = step_.softs.shareOf(slot);
-      piece.linear = toFloat(step_.end[end].position - body.position) * share;
-      piece.turn = Vec3{d[4], d[5], d[6]} * share;
+      piece.linear = toFloat(step_.end[end].position - body.position);
+      piece.turn = {d[4], d[5], d[6]};
       return;
     }
     piece.linear = body.linearVelocity * step_.h, piece.turn = body.angularVelocity * step_.h;
