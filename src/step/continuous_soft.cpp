@@ -16,8 +16,13 @@ namespace avbd {
 namespace {
 
 constexpr float kKept = 0.2f, kKeptNear = 0.5f;  ///< of the thickness, and of the distance at the start
+/// Below this distance [of the thickness] a larger share of it is kept: what is pressed together step by step would
+/// else end in one place.
+constexpr float kClose = 0.05f, kKeptClose = 0.95f;
 constexpr float kUnseen = 1e-5f;  ///< of the thickness: nearer at the start are none that were kept apart
-constexpr int kFewPasses = 6;     ///< after these what still meets stays where it started
+constexpr float kFar = 1e18f;
+constexpr int kFewPasses = 6;    ///< after these what still meets stays where it started
+constexpr int kManyPasses = 16;  ///< after these all points of bodies that take part
 constexpr int kMostPasses = 60;
 
 /// The least distance along a direction from the second's nodes to the first's, at the end.
@@ -36,7 +41,10 @@ float leastAtEnd(const NearFeatures& near, Vec3 direction) {
 
 }  // namespace
 
-float keptDistance(float thickness, float distance) { return std::min(kKept * thickness, kKeptNear * distance); }
+float keptDistance(float thickness, float distance) {
+  const float share = distance < kClose * thickness ? kKeptClose : kKeptNear;
+  return std::min(kKept * thickness, share * distance);
+}
 
 bool mayMeet(const WorldData& world, const NearFeatures& near, const FeatureContact& contact) {
   // Behind the surface of a solid the way leads out through the face.
@@ -135,7 +143,7 @@ class Stops {
 
   void run() {
     checkFirst();
-    for (int i = 0; i < kMostPasses && shorten(i >= kFewPasses); ++i) checkAgain();
+    for (int i = 0; i < kMostPasses && shorten(i); ++i) checkAgain();
     if (s_.share.empty()) return;
     for (const uint32_t slot : step_.order)
       if (s_.share[slot] < 1) end(slot);
@@ -169,9 +177,19 @@ class Stops {
   void checkShapes() {
     world_.softIds.forEach([&](uint32_t slot) {
       forEachNearShape(world_, step_, slot, true, [&](const ShapePiece& piece, uint32_t face) {
-        meet(meetingTime(world_, step_, slot, piece, face), named(piece, slot, face));
+        const float time = meetingTime(world_, step_, slot, piece, face);
+        if (time <= 1 && !comes(slot, piece, face)) meet(time, named(piece, slot, face));
       });
     });
+  }
+
+  /// Whether the shape comes to the face even if that stays: then a stop would leave the face in its way.
+  bool comes(uint32_t slot, const ShapePiece& piece, uint32_t face) const {
+    if (piece.linear == Vec3{} && piece.turn == Vec3{}) return false;
+    MovingFace still = movingFace(world_, s_, slot, face);
+    for (Vec3& way : still.way) way = {};
+    const Nearest near = nearestToFace(piece, piece.pose, still.at, kFar);
+    return pieceMeetsFace(piece, still, keptDistance(world_.softs[slot].radius, near.distance)) <= 1;
   }
 
   /// All points of the second side are at least `distance` behind those of the first, along the direction.
@@ -204,25 +222,42 @@ class Stops {
     }
   }
 
-  /// Shortens the ways of what met, or `ends` them. Whether any became shorter.
-  bool shorten(bool ends) {
+  /// Shortens the ways of what met. Whether any became shorter.
+  bool shorten(int pass) {
     if (met_.empty()) return false;
-    if (s_.share.empty()) s_.share.assign(world_.bodies.size(), 1);
+    if (s_.share.empty()) begin();
     std::sort(met_.begin(), met_.end());
     changed_.clear();
     for (size_t i = 0; i < met_.size(); ++i) {
       const auto& [body, time] = met_[i];
       if (i > 0 && met_[i - 1].first == body) continue;
-      s_.share[body] *= ends ? 0.0f : time;
-      changed_.push_back({world_.bodies[body].soft, pointOf(body)});
+      const uint32_t soft = world_.bodies[body].soft;
+      if (pass >= kManyPasses)
+        stay(soft);
+      else
+        change(soft, body, pass >= kFewPasses ? 0.0f : time);
     }
     met_.clear();
     return true;
   }
 
-  uint32_t pointOf(uint32_t body) const {
-    const std::vector<uint32_t>& all = world_.softs[world_.bodies[body].soft].bodies;
-    return static_cast<uint32_t>(std::find(all.begin(), all.end(), body) - all.begin());
+  void begin() {
+    s_.share.assign(world_.bodies.size(), 1);
+    pointOf_.resize(world_.bodies.size());
+    world_.softIds.forEach([&](uint32_t slot) {
+      const std::vector<uint32_t>& all = world_.softs[slot].bodies;
+      for (uint32_t i = 0; i < all.size(); ++i) pointOf_[all[i]] = i;
+    });
+  }
+
+  void change(uint32_t soft, uint32_t body, float factor) {
+    s_.share[body] *= factor;
+    changed_.push_back({soft, pointOf_[body]});
+  }
+
+  void stay(uint32_t soft) {
+    for (const uint32_t body : world_.softs[soft].bodies)
+      if (s_.share[body] > 0) change(soft, body, 0);
   }
 
   /// The pose where it stays.
@@ -239,6 +274,7 @@ class Stops {
   WorldData& world_;
   StepData& step_;
   SoftSurfaces& s_;
+  std::vector<uint32_t> pointOf_;                 ///< by body slot: its point
   std::vector<std::pair<uint32_t, float>> met_;   ///< bodies that meet, and when
   std::vector<std::array<uint32_t, 2>> changed_;  ///< soft bodies and points whose ways became shorter
 };
