@@ -61,7 +61,7 @@ void seal(Bytes& file) {
 /// input holds one.
 Bytes chunksOf(std::span<const uint8_t> in, bool compress) {
   using namespace record;
-  static constexpr uint32_t kTypes[] = {kMeta, kBodies, kSurfaces, kShapes, kJoints, kFrames, kFrames, kSoftFrames};
+  static constexpr uint32_t kTypes[] = {kMeta, kBodies, kSurfaces, kShapes, kJoints, kFrames, kFrames, kSofts};
   Bytes file = fileHead();
   while (in.size() >= 3) {
     const size_t length = std::min<size_t>(take<uint16_t>(in, 1), in.size() - 3);
