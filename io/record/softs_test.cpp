@@ -5,7 +5,11 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "io/record/export.h"
+#include "io/record/mcap_messages.h"
 #include "io/record/reader.h"
 #include "io/record/same.h"
 #include "io/record/sample.h"
@@ -189,6 +193,46 @@ TEST(RecordSofts, FramesWithoutTheirPointsAreLeftOut) {
     RecordReader reader(folder.write("b.avbd", bytes.substr(0, bytes.size() - kFooterBytes)));
     EXPECT_EQ(reader.frameCount(), fits ? 1u : 0u);
   }
+}
+
+TEST(RecordSofts, McapDrawsTheirSurfacesAndNotTheirBalls) {
+  using Json = nlohmann::json;
+  const Recording head = softHead();
+  const McapMessages messages(head);
+  const RecordedFrame frame = softFrame(head, 1);
+  EXPECT_EQ(Json::parse(messages.scene(0))["entities"].size(), 3u);
+  EXPECT_EQ(Json::parse(messages.transforms(frame, 0))["transforms"].size(), 3u);
+  const Json softs = Json::parse(messages.softs(frame, 1'500'000'000))["entities"];
+  ASSERT_EQ(softs.size(), 2u);
+  EXPECT_EQ(softs[1]["id"], "soft_1");
+  EXPECT_EQ(softs[1]["frame_id"], "world");
+  EXPECT_EQ(softs[1]["timestamp"]["sec"], 1);
+  const Json& surface = softs[1]["triangles"][0];
+  EXPECT_EQ(surface["indices"], Json::parse("[0, 2, 1, 1, 2, 3]"));
+  ASSERT_EQ(surface["points"].size(), 4u);
+  const Vec3d at = frame.poses[8 + 3].position;
+  const double found = surface["pose"]["position"]["x"].get<double>() + surface["points"][3]["x"].get<double>();
+  EXPECT_NEAR(found, at.x, 1e-6);
+  EXPECT_NEAR(softs[0]["triangles"][0]["color"]["b"].get<double>(), 3 / 255.0, 1e-6);
+}
+
+TEST(RecordSofts, CsvLeavesOpenWhatNobodyWroteAndJsonHasTheirSurfaces) {
+  const Folder folder;
+  const Recording head = softHead();
+  RecordWriter writer(folder.file("a.avbd"), head);
+  writer.add(softFrame(head, 0));
+  writer.finish();
+  RecordReader reader(folder.file("a.avbd"));
+  std::ostringstream csv, json;
+  exportCsv(reader, csv);
+  EXPECT_NE(csv.str().find("flag_4,"), std::string::npos);
+  EXPECT_NE(csv.str().find(",1,0,0,0,,,,,,\n"), std::string::npos) << csv.str();
+  EXPECT_EQ(csv.str().find("nan"), std::string::npos);
+  exportJson(reader, json);
+  const auto all = nlohmann::json::parse(json.str());
+  EXPECT_EQ(all["softs"][0]["name"], "flag");
+  EXPECT_EQ(all["softs"][0]["surface"].size(), 2u);
+  EXPECT_EQ(all["frames"][0]["positions"].size(), 13u);
 }
 
 TEST(RecordSofts, AWorldsSoftBodiesStandBehindItsOtherBodies) {
