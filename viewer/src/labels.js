@@ -24,7 +24,8 @@ export class Labels {
     const chosen = [...new Set([selected, hovered])].filter((body) => body >= 0);
     if (!this.all) return chosen;
     const near = [];
-    for (let body = 0; body < recording.bodyCount; ++body) {
+    const named = [...Array(recording.solidBodies).keys(), ...recording.softs.map(({first, surface}) => first + surface[surface.length >> 1])];
+    for (const body of named) {
       if (radii[body] === 0 || chosen.includes(body)) continue;
       const {x, y, z} = stage.project(poses[7 * body], poses[7 * body + 1], poses[7 * body + 2]);
       if (Math.abs(z) < 1 && x > 0 && y > 0 && x < this.width && y < this.height) near.push({body, z});
@@ -51,7 +52,7 @@ export class Labels {
       if (Math.abs(at.z) > 1) continue;
       const strong = body === selected || body === hovered;
       const lift = strong ? this.liftOf(stage, poses, body, radii[body]) : 0;
-      this.drawOne(recording.nameOf(body), at.x, at.y - lift, strong, body === selected, light, taken);
+      this.drawOne(recording.labelOf(body), at.x, at.y - lift, strong, body === selected, light, taken);
     }
   }
 

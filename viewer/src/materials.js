@@ -59,6 +59,13 @@ export function plain(rich) {
   return material;
 }
 
+/// Surfaces of soft bodies, cloth from both sides. Pushed back a little, so that lines on them show.
+export function yielding(rich, cloth) {
+  const material = surface(rich, 0.72);
+  if (cloth) material.side = THREE.DoubleSide;
+  return Object.assign(material, {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1});
+}
+
 /// Ground: lines every `cell` and, stronger, every ten, which thin out with distance.
 export function ground() {
   const material = new THREE.MeshLambertMaterial();
