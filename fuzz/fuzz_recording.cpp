@@ -13,6 +13,7 @@
 #include "io/record/content.h"
 #include "io/record/crc.h"
 #include "io/record/reader.h"
+#include "io/record/softs.h"
 
 namespace avbd::fuzz {
 namespace {
@@ -87,6 +88,7 @@ void checkFrame(const RecordedFrame& frame, const Recording& head) {
 }
 
 void checkHead(const Recording& head) {
+  checkSofts(head);  // what it throws nobody catches
   for (const RecordedShape& s : head.shapes) {
     require(s.body < head.bodies.size(), "a shape of a body that there is not");
     if (const auto* hull = std::get_if<Hull>(&s.geometry)) require(hull->data != nullptr, "a hull without data");

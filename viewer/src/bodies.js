@@ -159,7 +159,7 @@ export class Bodies {
     }
   }
 
-  /// The balls on points of soft bodies.
+  /// The balls on points of soft bodies; `mark` and `move` leave out those that do not show.
   showBalls(on) {
     for (const set of this.sets) {
       if (set.ball) set.mesh.visible = on;
@@ -186,6 +186,7 @@ export class Bodies {
   mark(selected, hovered) {
     const accent = new THREE.Color(0xff7a1a), white = new THREE.Color(0xffffff), color = new THREE.Color();
     for (const set of this.sets) {
+      if (!set.mesh.visible) continue;
       set.bodies.forEach((body, i) => {
         color.copy(set.colors[i] ?? this.colors[body]);
         if (body === selected) color.lerp(accent, 0.85);

@@ -82,11 +82,16 @@ class Viewer {
     else if (name === 'names') this.labels.all = on;
     else if (name === 'follow') this.showSelection();
     else if (name === 'tail') this.player.setTail(on);
-    else if (name === 'balls') this.bodies.showBalls(on);
+    else if (name === 'balls') this.showBalls(on);
     else if (name === 'strain' || name === 'wire') this.softs.show(name, on);
     else if (name !== 'loop') this.marks.show(name, on);
     this.interface.press(name, on);
     this.player.touch(true);
+  }
+
+  showBalls(on) {
+    this.bodies.showBalls(on);
+    this.bodies.mark(this.selected, this.hovered);
   }
 
   applyTheme() {
