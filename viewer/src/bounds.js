@@ -59,7 +59,7 @@ export function sceneBox(recording, radii, turn) {
         highs[axis].push(value + radii[body]);
       });
     }
-    for (const soft of recording.softs) {
+    for (const soft of recording.softs.filter(({count}) => count > 0)) {
       const {min, max} = softBox(soft, poses, turn);
       min.toArray().forEach((value, axis) => lows[axis].push(value));
       max.toArray().forEach((value, axis) => highs[axis].push(value));

@@ -4,13 +4,17 @@ const kMostRows = 40;
 
 export const strainText = (strain) => `${strain < 0 ? '−' : '+'}${(100 * Math.abs(strain)).toPrecision(3)} %`;
 
+function volumeText(surface) {
+  const volume = surface.volume(), text = `${Number(volume.toPrecision(4))} m³`;
+  return surface.restVolume > 0 ? `${text}, ${((100 * volume) / surface.restVolume).toFixed(1)} % of rest` : text;
+}
+
 /// Rows of the selection: what they are called, and their texts.
 export const kSoftRows = ['position', 'speed', 'particles', 'elements', 'volume', 'largest strain'];
 export function softTexts(surface, position, speed) {
-  const {soft, restVolume, largest} = surface, kind = soft.cloth ? 'triangles' : 'tetrahedra';
-  const volume = soft.cloth ? '–' : surface.volume();
-  const share = `${Number(volume.toPrecision?.(4) ?? 0)} m³, ${((100 * volume) / restVolume).toFixed(1)} % of rest`;
-  return [position, speed, String(soft.count), `${soft.elements} ${kind}`, soft.cloth ? '–' : share, strainText(largest)];
+  const {soft, largest} = surface, kind = soft.cloth ? 'triangles' : 'tetrahedra';
+  return [position, speed, String(soft.count), `${soft.elements} ${kind}`, soft.cloth ? '–' : volumeText(surface),
+          strainText(largest)];
 }
 
 export class SoftTable {
