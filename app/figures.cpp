@@ -69,6 +69,7 @@ RunFigures measureRun(const Model& model, int64_t steps, double dt) {
   f.shapes = world.shapeCount();
   f.joints = world.jointCount();
   f.probes = model.probes.size();
+  f.softs = softFiguresOf(model);
   f.contactPoints = world.report().points;
   f.steps = steps;
   f.dt = dt;

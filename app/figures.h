@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/soft_figures.h"
 #include "io/model.h"
 
 namespace avbd::cli {
@@ -17,6 +18,7 @@ struct RunFigures {
   size_t bodies = 0;  ///< that can move; static ones are counted apart
   size_t statics = 0, shapes = 0, joints = 0, contactPoints = 0;
   size_t probes = 0;  ///< of the model
+  std::vector<SoftFigures> softs;
   int64_t steps = 0;
   double dt = 0;
   int workers = 1;

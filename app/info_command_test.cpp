@@ -28,6 +28,21 @@ void expectRefused(const std::vector<std::string>& args, const std::vector<std::
 
 std::string tetra() { return "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"; }
 
+TEST(InfoCommand, SoftBodiesOfAScene) {
+  const Invoked text = invoke({"run", "soft_cubes", "--time", "0.2"});
+  EXPECT_NE(text.out.find("5: 900 particles, 2500 elements, largest strain "), std::string::npos) << text.out;
+  const Json json = Json::parse(invoke({"run", "soft_cubes", "--time", "0.2", "--json"}).out);
+  ASSERT_EQ(json["soft_bodies"].size(), 5u);
+  const Json& cube = json["soft_bodies"][4];
+  EXPECT_EQ(cube["name"], "cube4");
+  EXPECT_EQ(cube["cloth"], false);
+  EXPECT_EQ(cube["particles"], 180);
+  EXPECT_EQ(cube["elements"], 500);
+  EXPECT_NEAR(cube["volume"].get<double>(), 0.125, 1e-4) << "it still falls";
+  EXPECT_NEAR(cube["strain_max"].get<double>(), 0, 1e-3);
+  EXPECT_GT(std::abs(json["soft_bodies"][0]["strain_max"].get<double>()), 1e-3) << "it has met the ground";
+}
+
 TEST(InfoCommand, AModel) {
   const TestFolder folder;
   const std::string file = folder.write("robot.xml", kRobot);

@@ -220,6 +220,7 @@ ModelInfo infoOf(const Model& model) {
   }
   for (const JointId joint : world.joints()) ++info.joints[static_cast<size_t>(world.type(joint))];
   for (const NamedJoint& joint : model.joints) info.coordinates.push_back(infoOf(world, joint));
+  info.softs = softFiguresOf(model);
   info.actuators = model.actuators;
   for (const Probe& probe : model.probes) {
     const ProbeKindFacts& facts = factsOf(probe.kind);
@@ -236,6 +237,7 @@ ReportLines reportLines(const ModelInfo& info) {
                      std::to_string(info.fixed) + " static"},
       {"shapes", countsText(info.shapes, shapeKindName)},
   };
+  for (const SoftFigures& soft : info.softs) lines.emplace_back("soft body", softText(soft));
   if (info.coloredShapes > 0) lines.emplace_back("coloured", std::to_string(info.coloredShapes) + " shapes");
   if (info.hullVertices > 0) lines.emplace_back("hull vertices", std::to_string(info.hullVertices));
   if (info.meshTriangles > 0) lines.emplace_back("mesh triangles", std::to_string(info.meshTriangles));

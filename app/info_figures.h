@@ -43,6 +43,7 @@ struct ModelInfo {
   size_t coloredShapes = 0;                                       ///< those that the file gives a colour
   size_t hullVertices = 0, meshTriangles = 0, heightSamples = 0;  ///< of all shapes; shared ones once for each
   std::array<size_t, kJointKinds> joints{};
+  std::vector<SoftFigures> softs;
   double mass = 0;  ///< [kg] of all dynamic bodies
   Bounds bounds;    ///< of all shapes but half-spaces, at the start [m]
   double dt = 0;

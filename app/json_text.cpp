@@ -55,31 +55,46 @@ Json probesJson(const ModelInfo& info) {
   return out;
 }
 
+Json softsJson(const std::vector<SoftFigures>& softs) {
+  Json out = Json::array();
+  for (const SoftFigures& soft : softs) {
+    out.push_back({{"name", soft.name},
+                   {"cloth", soft.cloth},
+                   {"particles", soft.particles},
+                   {"elements", soft.elements},
+                   {"volume", soft.volume},
+                   {"strain_max", soft.strainMax}});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string jsonText(const RunFigures& f) {
-  return text({{"scene", f.scene},
-               {"bodies", f.bodies},
-               {"statics", f.statics},
-               {"shapes", f.shapes},
-               {"joints", f.joints},
-               {"probes", f.probes},
-               {"contact_points", f.contactPoints},
-               {"steps", f.steps},
-               {"dt", f.dt},
-               {"workers", f.workers},
-               {"ms_median", f.msMedian},
-               {"ms_p95", f.msP95},
-               {"realtime_factor", f.realtimeFactor},
-               {"penetration_max", f.penetrationMax},
-               {"penetration_mean", f.penetrationMean},
-               {"joint_gap_max", f.jointGapMax},
-               {"joint_angle_max", f.jointAngleMax},
-               {"limit_excess_max", f.limitExcessMax},
-               {"limit_excess_angle_max", f.limitExcessAngleMax},
-               {"kinetic_energy", f.kineticEnergy},
-               {"finite", f.finite},
-               {"hash", hashText(f.hash)}});
+  Json json{{"scene", f.scene},
+            {"bodies", f.bodies},
+            {"statics", f.statics},
+            {"shapes", f.shapes},
+            {"joints", f.joints},
+            {"probes", f.probes},
+            {"contact_points", f.contactPoints},
+            {"steps", f.steps},
+            {"dt", f.dt},
+            {"workers", f.workers},
+            {"ms_median", f.msMedian},
+            {"ms_p95", f.msP95},
+            {"realtime_factor", f.realtimeFactor},
+            {"penetration_max", f.penetrationMax},
+            {"penetration_mean", f.penetrationMean},
+            {"joint_gap_max", f.jointGapMax},
+            {"joint_angle_max", f.jointAngleMax},
+            {"limit_excess_max", f.limitExcessMax},
+            {"limit_excess_angle_max", f.limitExcessAngleMax},
+            {"kinetic_energy", f.kineticEnergy},
+            {"finite", f.finite},
+            {"hash", hashText(f.hash)}};
+  if (!f.softs.empty()) json["soft_bodies"] = softsJson(f.softs);
+  return text(json);
 }
 
 std::string jsonText(const bench::BenchRecord& r) {
@@ -130,6 +145,7 @@ std::string jsonText(const ModelInfo& info) {
                {"mesh_triangles", info.meshTriangles},
                {"heights", info.heightSamples},
                {"joints", counts(info.joints, jointKindName)},
+               {"soft_bodies", softsJson(info.softs)},
                {"mass", info.mass},
                {"lower", boundsJson(info.bounds, info.bounds.lower)},
                {"upper", boundsJson(info.bounds, info.bounds.upper)},

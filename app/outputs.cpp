@@ -17,9 +17,10 @@ namespace fs = std::filesystem;
 
 constexpr double kPageFps = 60;
 constexpr double kPageFrames = 1200;
-constexpr double kPagePoses = 2.4e6;                          // of all bodies in all frames: about 48 MB of page
-constexpr size_t kRecordContacts = 2000;                      // of a frame: the strongest
-constexpr auto kFlushAfter = std::chrono::milliseconds(200);  // whoever reads along sees it this much later at most
+constexpr double kPagePoses = 2.4e6;      // of all bodies in all frames: about 48 MB of page
+constexpr size_t kRecordContacts = 2000;  // of a frame: the strongest
+// Whoever reads along sees a frame this much later at most; frames that are written together take less room.
+constexpr auto kFlushAfter = std::chrono::milliseconds(1000), kFlushLive = std::chrono::milliseconds(200);
 
 double pageFps(const Model& model, const Plan& plan) {
   const double bodies = static_cast<double>(std::max<size_t>(1, model.bodies.size()));
@@ -62,6 +63,7 @@ Outputs::Outputs(const RunArguments& a, const Model& model, const Plan& plan)
     throw BadInput(std::string("--record ") + e.what());
   }
   flushed_ = std::chrono::steady_clock::now();
+  flushAfter_ = a.live ? kFlushLive : kFlushAfter;
 }
 
 void Outputs::look(const Model& model, int64_t step, const Plan& plan) {
@@ -89,7 +91,7 @@ void Outputs::record(const RecordedFrame& frame) {
   try {
     writer_->add(frame);
     const auto now = std::chrono::steady_clock::now();
-    if (now - flushed_ < kFlushAfter) return;
+    if (now - flushed_ < flushAfter_) return;
     flushRecording();
     flushed_ = now;
   } catch (const FileError& e) {

@@ -47,6 +47,7 @@ class Outputs {
   std::unique_ptr<RecordWriter> writer_;
   std::vector<RecordedStep> steps_;  ///< not written yet
   std::chrono::steady_clock::time_point flushed_;
+  std::chrono::milliseconds flushAfter_{};
 };
 
 }  // namespace avbd::cli

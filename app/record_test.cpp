@@ -8,6 +8,7 @@
 
 #include "app/invoke.h"
 #include "io/record/reader.h"
+#include "io/record/softs.h"
 #include "viewer/live.h"
 
 namespace avbd::cli {
@@ -71,6 +72,36 @@ TEST(RecordCommand, ConvertsToEverythingAtOnce) {
     const std::string pose = b.substr(b.find(',')), here = a.substr(a.find(','));
     ASSERT_EQ(here.substr(0, pose.size()), pose);
   }
+}
+
+TEST(RecordCommand, SoftBodiesGoAlong) {
+  const TestFolder folder;
+  for (const auto& [scene, softs, points, time] :
+       {std::tuple{"soft_cubes", 5u, 900u, "0.5"}, {"cloth_on_ball", 1u, 10'000u, "0.1"}}) {
+    const std::string file = folder.file("a.avbd");
+    const Invoked run = invoke({"run", scene, "--time", time, "--record", file});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find(" particles, "), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("largest strain "), std::string::npos) << run.out;
+    RecordReader reader(file);
+    EXPECT_TRUE(reader.verify().empty());
+    ASSERT_EQ(reader.head().softs.size(), softs);
+    EXPECT_EQ(pointCount(reader.head()), points);
+    EXPECT_EQ(reader.head().softs[0].name, softs == 5 ? "cube0" : "cloth");
+    EXPECT_EQ(reader.frame(0).poses.size(), reader.head().bodies.size());
+    const Invoked replay = invoke({"replay", file, "--workers", "2"});
+    EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+    EXPECT_NE(invoke({"info", file}).out.find(std::to_string(softs) + ": "), std::string::npos);
+  }
+}
+
+TEST(RecordCommand, WhereRunsOfSoftBodiesPartAPointIsNamed) {
+  const TestFolder folder;
+  const std::string file = folder.file("a.avbd");
+  ASSERT_EQ(invoke({"run", "soft_cubes", "--time", "0.5", "--record", file}).status, 0);
+  const Invoked replay = invoke({"replay", file, "--iterations", "2"});
+  EXPECT_EQ(replay.status, kExitCheckFailed) << replay.err;
+  EXPECT_NE(replay.out.find("first body: \"cube0_"), std::string::npos) << replay.out;
 }
 
 TEST(RecordCommand, DamageIsSaidAndTheRestConverted) {

@@ -2,6 +2,7 @@
 //
 // Each step's hash is compared. Where it differs, the hashes by stage say what was the first to differ, and the frames
 // whose poses and velocities they hold which body.
+#include <algorithm>
 #include <cmath>
 
 #include "app/command_line.h"
@@ -12,6 +13,8 @@
 #include "app/number_text.h"
 #include "app/run_again.h"
 #include "io/record/reader.h"
+#include "io/record/softs.h"
+#include "io/record/source.h"
 
 namespace avbd::cli {
 namespace {
@@ -84,26 +87,33 @@ std::string apartText(const Pose& pose, const Pose& recorded, const Velocity& ve
   return text + digits(static_cast<double>(length(velocity.angular - recordedVelocity->angular)), 3) + " rad/s";
 }
 
+/// Whether a point of a soft body is where it was, as far as recordings tell.
+bool isNear(Vec3d a, Vec3d b, double step) {
+  return std::max({std::fabs(a.x - b.x), std::fabs(a.y - b.y), std::fabs(a.z - b.z)}) <= step;
+}
+
 /// The first body of a frame that is not as it was; empty: all are.
-std::string bodyOf(const Model& model, const RecordedFrame& frame) {
-  for (size_t i = 0; i < std::min(frame.poses.size(), model.bodies.size()); ++i) {
-    const NamedBody& body = model.bodies[i];
-    const Pose pose = model.world.pose(body.id);
-    const Velocity velocity = model.world.velocity(body.id);
-    const Velocity* recorded = frame.velocities.empty() ? nullptr : &frame.velocities[i];
-    if (pose == frame.poses[i] && (!recorded || velocity == *recorded)) continue;
-    return "\"" + body.name + "\" (" + std::to_string(i) + "), " + apartText(pose, frame.poses[i], velocity, recorded);
+std::string bodyOf(const Recording& head, const RecordedFrame& now, const RecordedFrame& was) {
+  for (uint32_t i = 0; i < now.poses.size(); ++i) {
+    const RecordedSoft* soft = softOf(head, i);
+    const Velocity* velocity = soft || was.velocities.empty() ? nullptr : &was.velocities[i];
+    const bool same = soft ? isNear(now.poses[i].position, was.poses[i].position, soft->step)
+                           : now.poses[i] == was.poses[i] && (!velocity || now.velocities[i] == *velocity);
+    if (same) continue;
+    return "\"" + head.bodies[i].name + "\" (" + std::to_string(i) + "), " +
+           apartText(now.poses[i], was.poses[i], now.velocities[i], velocity);
   }
   return {};
 }
 
 /// Goes on to the first frame in which some body is not as it was.
 void tellBody(Again& again, RecordReader& reader, std::ostream& out) {
+  RecordSource source(again.model());
   for (uint64_t i = 0; i < reader.frameCount(); ++i) {
     const int64_t step = again.stepOf(reader.times()[i]);
     if (step < again.made()) continue;
     while (again.made() < step) again.step();
-    const std::string body = bodyOf(again.model(), reader.frame(i));
+    const std::string body = bodyOf(reader.head(), source.frame(again.model(), again.time()), reader.frame(i));
     if (body.empty()) continue;
     out << "first body: " << body << ", in the frame of step " << step << "\n";
     return;
@@ -119,7 +129,7 @@ int replayCommand(const ReplayArguments& a, std::ostream& out) {
     throw BadInput(a.file + ": holds no hashes of steps; `avbd run --record` writes them");
   RecordReader reader(a.file);
   Again again(recorded, a);
-  if (again.model().bodies.size() != reader.head().bodies.size())
+  if (RecordSource(again.model()).head().bodies.size() != reader.head().bodies.size())
     throw BadInput(a.file + ": its run has other bodies than " + again.model().name + " has now");
   for (const RecordedStep& step : recorded.steps) {
     while (again.made() < static_cast<int64_t>(step.step)) again.step();

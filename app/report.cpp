@@ -85,6 +85,8 @@ ReportLines reportLines(const RunFigures& f) {
       {"finite", f.finite ? "yes" : "no"},
       {"hash", hashText(f.hash)},
   };
+  constexpr std::ptrdiff_t kBehindBodies = 2;
+  if (!f.softs.empty()) lines.insert(lines.begin() + kBehindBodies, {"soft bodies", softsText(f.softs)});
   addNotes(lines, f.notes);
   return lines;
 }

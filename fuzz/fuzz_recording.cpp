@@ -13,6 +13,7 @@
 #include "io/record/content.h"
 #include "io/record/crc.h"
 #include "io/record/reader.h"
+#include "io/record/softs.h"
 
 namespace avbd::fuzz {
 namespace {
@@ -61,7 +62,7 @@ void seal(Bytes& file) {
 /// input holds one.
 Bytes chunksOf(std::span<const uint8_t> in, bool compress) {
   using namespace record;
-  static constexpr uint32_t kTypes[] = {kMeta, kBodies, kSurfaces, kShapes, kJoints, kFrames, kFrames, kSoftFrames};
+  static constexpr uint32_t kTypes[] = {kMeta, kBodies, kSurfaces, kShapes, kJoints, kFrames, kFrames, kSofts};
   Bytes file = fileHead();
   while (in.size() >= 3) {
     const size_t length = std::min<size_t>(take<uint16_t>(in, 1), in.size() - 3);
@@ -87,6 +88,7 @@ void checkFrame(const RecordedFrame& frame, const Recording& head) {
 }
 
 void checkHead(const Recording& head) {
+  checkSofts(head);  // what it throws nobody catches
   for (const RecordedShape& s : head.shapes) {
     require(s.body < head.bodies.size(), "a shape of a body that there is not");
     if (const auto* hull = std::get_if<Hull>(&s.geometry)) require(hull->data != nullptr, "a hull without data");

@@ -22,6 +22,11 @@ struct NamedBody {
   std::vector<std::optional<Color>> colors{};
 };
 
+struct NamedSoft {
+  SoftId id;
+  std::string name;
+};
+
 /// A coordinate of a joint by the file's name: the file's value is sign * ours + offset.
 struct NamedJoint {
   std::string name;
@@ -52,6 +57,7 @@ struct Model {
   double duration = 10;                ///< [s] to run where nobody says otherwise
   Vec3 up{0, 1, 0};                    ///< unit; z for MJCF
   std::vector<NamedBody> bodies;       ///< all bodies, static ones too, in the order of the file
+  std::vector<NamedSoft> softs{};      ///< their particles are among `bodies`, too
   std::vector<NamedJoint> joints{};    ///< coordinates that the file names, in its order
   std::vector<Actuator> actuators{};   ///< in the order of the file
   std::vector<Probe> probes{};         ///< what the file's sensors measure, in its order (probes.h reads them)

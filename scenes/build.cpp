@@ -127,6 +127,7 @@ Pose Build::inBody(BodyId id, const Pose& at) const {
 
 SoftId Build::soft(const std::string& name, const SoftDef& def) {
   const SoftId id = model_.world.create(def);
+  model_.softs.push_back({id, name});
   const std::vector<BodyId> particles = model_.world.particles(id);
   for (size_t i = 0; i < particles.size(); ++i) model_.bodies.push_back({particles[i], name + "_" + std::to_string(i)});
   return id;

@@ -13,12 +13,6 @@ void append(Bytes& out, uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out.push_back(static_cast<uint8_t>(value >> (8 * i)));
 }
 
-void appendPosition(Bytes& out, const Range range[3], Vec3d p) {
-  append(out, quantise(range[0], p.x), 3);
-  append(out, quantise(range[1], p.y), 3);
-  append(out, quantise(range[2], p.z), 3);
-}
-
 int8_t toSignedByte(float unit) { return static_cast<int8_t>(std::lround(std::clamp(unit, -1.0f, 1.0f) * 127)); }
 
 }  // namespace
@@ -117,8 +111,14 @@ uint64_t packRotation(Quat q) {
   return packed;
 }
 
+void appendPlace(Bytes& out, const Range range[3], Vec3d p) {
+  append(out, quantise(range[0], p.x), 3);
+  append(out, quantise(range[1], p.y), 3);
+  append(out, quantise(range[2], p.z), 3);
+}
+
 void appendPose(Bytes& out, const Range range[3], const Pose& pose) {
-  appendPosition(out, range, pose.position);
+  appendPlace(out, range, pose.position);
   append(out, packRotation(pose.rotation), 6);
 }
 
@@ -149,7 +149,7 @@ void appendForce(Bytes& out, Vec3 force) {
 }  // namespace
 
 void appendContact(Bytes& out, const Range range[3], Vec3d position, Vec3 force) {
-  appendPosition(out, range, position);
+  appendPlace(out, range, position);
   appendForce(out, force);
 }
 

@@ -34,6 +34,9 @@ constexpr uint32_t kRangeSteps = (1u << 24) - 1;
 Range rangeOf(double low, double high);
 uint32_t quantise(const Range& range, double value);
 
+/// Bytes of a place: three times 24 bits.
+constexpr size_t kPlaceBytes = 9;
+void appendPlace(Bytes& out, const Range range[3], Vec3d place);
 /// Bytes of a pose: three times 24 bits, then the rotation's three smaller components in 15 bits each.
 constexpr size_t kPoseBytes = 15;
 uint64_t packRotation(Quat q);

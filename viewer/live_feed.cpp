@@ -6,6 +6,7 @@
 #include <string>
 
 #include "io/record/json.h"
+#include "io/record/softs.h"
 #include "viewer/page.h"
 
 namespace avbd::live {
@@ -126,14 +127,18 @@ Message Feed::frame(uint32_t number) {
   } catch (const FileError&) {
   }
   Bytes bytes;
-  bytes.reserve(24 + 28 * f.poses.size() + 24 * f.contacts.size() + 12 * f.joints.size() + 4 * f.residuals.size());
+  const size_t solid = std::min(f.poses.size(), solidBodies(reader_.head()));
+  const auto points = std::span(f.poses).subspan(solid);
+  bytes.reserve(28 + 28 * solid + 12 * points.size() + 24 * f.contacts.size() + 12 * f.joints.size() +
+                4 * f.residuals.size());
   put(bytes, static_cast<uint32_t>(MessageKind::Frame));
   put(bytes, number);
-  put(bytes, static_cast<uint32_t>(f.poses.size()));
+  put(bytes, static_cast<uint32_t>(solid));
   put(bytes, static_cast<uint32_t>(f.contacts.size()));
   put(bytes, static_cast<uint32_t>(f.joints.size()));
   put(bytes, static_cast<uint32_t>(f.residuals.size()));
-  for (const Pose& pose : f.poses) {
+  put(bytes, static_cast<uint32_t>(points.size()));
+  for (const Pose& pose : std::span(f.poses).first(solid)) {
     putVector(bytes, toFloat(pose.position - origin_));
     const Quat q = pose.rotation;
     const float size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
@@ -141,6 +146,7 @@ Message Feed::frame(uint32_t number) {
     putVector(bytes, sound ? Vec3{q.x / size, q.y / size, q.z / size} : Vec3{});
     put(bytes, sound ? q.w / size : 1.0f);
   }
+  for (const Pose& pose : points) putVector(bytes, toFloat(pose.position - origin_));
   for (const RecordedContact& c : f.contacts) putVector(bytes, toFloat(c.position - origin_));
   for (const RecordedContact& c : f.contacts) putVector(bytes, c.force);
   for (const RecordedJointState& joint : f.joints) {

@@ -18,8 +18,9 @@ enum class MessageKind : uint32_t {
   /// First frame, count, finished; 8-byte times; float energies, penetrations, gaps, limits' excess in metres and
   /// radians; contacts, kept.
   Figures = 2,
-  /// Frame, bodies, contacts, joints; floats: 7 for each body, 3 for each contact's place, 3 for its force, 3 for the
-  /// force on each joint's B, NaN where it is not enabled.
+  /// Frame, bodies, contacts, joints, residuals, points of soft bodies; floats: 7 for each body, 3 for each point, 3
+  /// for each contact's place, 3 for its force, 3 for the force on each joint's B, NaN where it is not enabled,
+  /// residuals.
   Frame = 3,
   Report = 4,  ///< JSON, from byte 4 on: a list of label and value
 };

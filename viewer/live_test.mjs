@@ -151,6 +151,32 @@ async function testPath(file) {
   await page.close();
 }
 
+/// Soft bodies come frame by frame, as places of their points.
+async function testSoft(file) {
+  const server = start('play', file, '--port', '0');
+  const {page, complaints} = await open((await server.place).url);
+  await page.keyboard.press('e');
+  const at = async (time) => {
+    await ask(page, (value) => window.avbdViewer.seek(value), time);
+    await page.waitForFunction((value) => window.avbdViewer.has(window.avbdViewer.frame) && window.avbdViewer.time === value, time);
+    await page.waitForTimeout(500);
+    return ask(page, () => ({softs: window.avbdViewer.softs(), pose: window.avbdViewer.poseOf(window.avbdViewer.softs()[4].first)}));
+  };
+  const before = await at(0), after = await at(0.4);
+  assert.deepEqual(before.softs.map(({name, points}) => [name, points]),
+                   [0, 1, 2, 3, 4].map((i) => [`cube${i}`, 180]));
+  for (const {volume, restVolume, largest} of before.softs) {
+    assert.ok(Math.abs(volume / restVolume - 1) < 1e-5 && Math.abs(largest) < 1e-4, 'at first nothing is strained');
+  }
+  const fallen = before.pose[1] - after.pose[1];
+  assert.ok(Math.abs(fallen - 4.905 * 0.4 * 0.4) < 0.08, `the highest cube falls: ${fallen}`);
+  assert.ok(Math.abs(after.softs[0].largest) > 0.01, 'the lowest is on the ground');
+  server.child.kill('SIGINT');
+  await server.ended;
+  assert.deepEqual(complaints.filter((text) => !/ERR_CONNECTION_REFUSED|WebSocket/.test(text)), []);
+  await page.close();
+}
+
 /// The page follows a run that still goes on, and sees its end.
 async function testGrowing() {
   const server = start('run', 'chain', '--time', '12', '--live', '--port', '0', '--no-report');
@@ -178,6 +204,9 @@ try {
   assert.equal(longer.status, 0, longer.text);
   await testPath('long.avbd');
   await testGrowing();
+  const soft = await start('run', 'soft_cubes', '--time', '0.5', '--record', 'soft.avbd', '--no-report').ended;
+  assert.equal(soft.status, 0, soft.text);
+  await testSoft('soft.avbd');
   console.log('all passed');
 } finally {
   for (const child of running) child.kill('SIGKILL');

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "io/record/content.h"
+#include "io/record/softs.h"
 #include "viewer/encode.h"
 #include "viewer/head.h"
 #include "viewer/surface.h"
@@ -24,8 +25,10 @@ std::string_view viewerScript();
 namespace {
 
 using page::append;
+using page::Bounds;
 using page::Bytes;
 using page::Head;
+using page::isFinite;
 using page::jsonText;
 using page::Range;
 
@@ -35,8 +38,6 @@ constexpr size_t kChunkBytes = 6u << 20;
 [[noreturn]] void refuse(const std::string& field, const std::string& value, const std::string& range) {
   throw std::invalid_argument("Recording." + field + " = " + value + ": " + range);
 }
-
-bool finite(Vec3d v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 std::string element(const char* list, size_t index, const char* field) {
   return std::string(list) + "[" + std::to_string(index) + "]." + field;
@@ -82,22 +83,9 @@ void check(const Recording& r) {
         refuse(element("joints", i, "body"), std::to_string(body), range);
     }
   }
+  checkSofts(r);
   checkFrames(r);
 }
-
-/// Low and high corner of positions, those that are not finite left out.
-struct Bounds {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-
-  void add(Vec3d p) {
-    if (!finite(p)) return;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  std::array<Range, 3> ranges() const {
-    return {page::rangeOf(low.x, high.x), page::rangeOf(low.y, high.y), page::rangeOf(low.z, high.z)};
-  }
-};
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -110,7 +98,7 @@ Vec3d originOf(const Recording& r) {
   std::vector<double> x, y, z;
   for (size_t i = 0; i < r.bodies.size(); ++i) {
     const Vec3d p = r.frames[0].poses[i].position;
-    if (r.bodies[i].type == BodyType::Static || !finite(p)) continue;
+    if (r.bodies[i].type == BodyType::Static || !isFinite(p)) continue;
     x.push_back(p.x);
     y.push_back(p.y);
     z.push_back(p.z);
@@ -120,7 +108,7 @@ Vec3d originOf(const Recording& r) {
   return length(middle) < 1000 ? Vec3d{} : middle;
 }
 
-/// Bodies that move, and the range of each one's coordinates.
+/// Bodies that move and are no points of soft bodies, and the range of each one's coordinates.
 struct Tracks {
   std::vector<uint32_t> bodies;
   std::vector<std::array<Range, 3>> ranges;
@@ -130,8 +118,8 @@ struct Tracks {
 
 Tracks findTracks(const Recording& r, Vec3d origin) {
   Tracks t;
-  t.trackOfBody.assign(r.bodies.size(), -1);
-  for (uint32_t body = 0; body < r.bodies.size(); ++body) {
+  t.trackOfBody.assign(solidBodies(r), -1);
+  for (uint32_t body = 0; body < solidBodies(r); ++body) {
     const Pose& first = r.frames[0].poses[body];
     Bounds bounds;
     bool moves = false;
@@ -144,7 +132,7 @@ Tracks findTracks(const Recording& r, Vec3d origin) {
       t.bodies.push_back(body);
       t.ranges.push_back(bounds.ranges());
     } else {
-      append(t.stillPoses, toFloat(finite(first.position) ? first.position - origin : Vec3d{}));
+      append(t.stillPoses, toFloat(isFinite(first.position) ? first.position - origin : Vec3d{}));
       append(t.stillPoses, first.rotation);
     }
   }
@@ -179,8 +167,9 @@ std::vector<RecordedContact> strongest(const std::vector<RecordedContact>& all, 
 
 void writeBodies(Head& head, const Recording& r, const Tracks& tracks) {
   std::vector<uint8_t> types;
-  for (const RecordedBody& body : r.bodies) types.push_back(static_cast<uint8_t>(body.type));
-  head.list("names", r.bodies, [](std::ostream& out, const RecordedBody& body) { out << jsonText(body.name); });
+  const auto bodies = std::span(r.bodies).first(solidBodies(r));
+  for (const RecordedBody& body : bodies) types.push_back(static_cast<uint8_t>(body.type));
+  head.list("names", bodies, [](std::ostream& out, const RecordedBody& body) { out << jsonText(body.name); });
   head.numbers("types", types);
   head.numbers("tracks", tracks.trackOfBody);
   head.numbers("still", tracks.stillPoses);
@@ -211,7 +200,7 @@ void writeShapes(Head& head, const Recording& r) {
   std::vector<uint8_t> colors;
   bool anyColor = false;
   record::Surfaces surfaces;
-  for (const RecordedShape& shape : r.shapes) {
+  for (const RecordedShape& shape : std::span(r.shapes).first(solidShapes(r))) {
     const Size size = std::visit([](const auto& geometry) { return sizeOf(geometry); }, shape.geometry);
     bodies.push_back(shape.body);
     kinds.push_back(static_cast<uint8_t>(shape.geometry.index()));  // src/recording.js: kKinds
@@ -287,6 +276,8 @@ void appendJoints(Bytes& bytes, const Recording& r, const RecordedFrame& f) {
 
 /// The frames' bytes in script elements of a few megabytes, each a whole number of frames.
 void writeFrames(std::ostream& out, const Recording& r, const Tracks& tracks, size_t contactsKept) {
+  const page::PlaceRanges places = page::placeRangesOf(r);
+  std::vector<Vec3d> lastPlaces(pointCount(r));
   const std::array<Range, 3> contactRange = contactRanges(r);
   std::vector<Pose> last(tracks.bodies.size());  // a pose that is not finite shows as the one before
   const bool joints = hasJointStates(r);
@@ -300,9 +291,10 @@ void writeFrames(std::ostream& out, const Recording& r, const Tracks& tracks, si
     const RecordedFrame& f = r.frames[i];
     for (size_t t = 0; t < tracks.bodies.size(); ++t) {
       const Pose& pose = f.poses[tracks.bodies[t]];
-      if (finite(pose.position)) last[t] = pose;
+      if (isFinite(pose.position)) last[t] = pose;
       appendPose(bytes, tracks.ranges[t].data(), last[t]);
     }
+    page::appendPlaces(bytes, r, f, places, lastPlaces);
     if (joints) appendJoints(bytes, r, f);
     for (const RecordedContact& c : strongest(f.contacts, contactsKept)) {
       appendContact(bytes, contactRange.data(), c.position, c.force);
@@ -326,6 +318,7 @@ void writeHead(std::ostream& out, const Recording& r, const Tracks& tracks, Vec3
   head.numbers("contactRange", contactRange);
   writeBodies(head, r, tracks);
   writeShapes(head, r);
+  page::writeSofts(head, r, page::placeRangesOf(r));
   page::writeJoints(head, r);
   head.numbers("jointStates", std::vector<uint8_t>{static_cast<uint8_t>(hasJointStates(r))});
   writeFigures(head, r, contactsKept);
@@ -334,7 +327,7 @@ void writeHead(std::ostream& out, const Recording& r, const Tracks& tracks, Vec3
 /// All bodies that could move have a track.
 Tracks liveTracks(const Recording& r, Vec3d origin) {
   Tracks t;
-  for (uint32_t body = 0; body < r.bodies.size(); ++body) {
+  for (uint32_t body = 0; body < solidBodies(r); ++body) {
     const bool moves = r.bodies[body].type != BodyType::Static;
     t.trackOfBody.push_back(moves ? static_cast<int32_t>(t.bodies.size()) : -1);
     if (moves) {
@@ -342,7 +335,7 @@ Tracks liveTracks(const Recording& r, Vec3d origin) {
       continue;
     }
     const Pose& pose = r.frames[0].poses[body];
-    append(t.stillPoses, toFloat(finite(pose.position) ? pose.position - origin : Vec3d{}));
+    append(t.stillPoses, toFloat(isFinite(pose.position) ? pose.position - origin : Vec3d{}));
     append(t.stillPoses, pose.rotation);
   }
   return t;
@@ -404,6 +397,7 @@ page::LiveHead page::liveHead(const Recording& recording) {
     head.numbers("contactRange", std::vector<double>{});
     writeBodies(head, recording, liveTracks(recording, origin));
     writeShapes(head, recording);
+    page::writeSofts(head, recording, {});
     page::writeJoints(head, recording);
     Recording none;
     none.report = recording.report;

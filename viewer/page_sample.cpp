@@ -1,8 +1,10 @@
-// Writes made-up recordings for the browser test: page_sample FILE.html [pyramid | pile | hostile | shapes | joints].
+// Writes made-up recordings for the browser test:
+// page_sample FILE.html [pyramid | pile | hostile | shapes | joints | soft].
 #include <array>
 #include <cmath>
 #include <iostream>
 
+#include "io/record/softs.h"
 #include "viewer/page.h"
 
 namespace avbd {
@@ -324,19 +326,55 @@ Recording jointsRun() {
   return r;
 }
 
+RecordedSoft softOfMesh(const std::string& name, const SoftMeshData& mesh) {
+  RecordedSoft soft{name, mesh.isCloth()};
+  soft.points.assign(mesh.points().begin(), mesh.points().end());
+  soft.surface.assign(mesh.surface().begin(), mesh.surface().end());
+  soft.elements = mesh.report().elements;
+  soft.radius = 0.03f;
+  return soft;
+}
+
+/// A cloth of 2 x 2 m that is stretched along x, by a tenth at most; a cube that is pressed flat; a box. z is up.
+Recording softRun() {
+  Recording r;
+  r.title = "Soft";
+  r.up = {0, 0, 1};
+  add(r, "floor", BodyType::Static, HalfSpace{}, {{}, turn({1, 0, 0}, 1.57079633f)});
+  add(r, "box", BodyType::Dynamic, Box{0.4f, 0.4f, 0.4f});
+  RecordedSoft cloth = softOfMesh("<b>flag</b>", *makeClothGrid(1, 1, 20, 20));
+  appendSoft(r, cloth);
+  RecordedSoft cube = softOfMesh("cube", *makeTetBox({0.5f, 0.5f, 0.5f}, 4, 4, 4));
+  cube.color = Color{255, 32, 32};
+  appendSoft(r, cube);
+  for (int i = 0; i <= 60; ++i) {
+    RecordedFrame f;
+    f.time = i / 60.0;
+    f.poses = {{}, {{2.2, 0, 0.4 + 0.2 * f.time}, {}}};
+    const double pressed = 1 - 0.25 * f.time;
+    for (const Vec3 p : cloth.points)
+      f.poses.push_back(
+          {{p.x * (1 + 0.1 * f.time) - 2.4, double{p.z}, 1.2 + 0.2 * std::sin(3.0 * p.z + 2 * f.time)}, {}});
+    for (const Vec3 p : cube.points) f.poses.push_back({{double{p.x}, double{p.y}, (0.5 + p.z) * pressed}, {}});
+    r.frames.push_back(std::move(f));
+  }
+  return r;
+}
+
 }  // namespace
 }  // namespace avbd
 
 int main(int argc, char** argv) {
   const std::string kind = argc > 2 ? argv[2] : "pyramid";
   if (argc < 2) {
-    std::cerr << "page_sample FILE.html [pyramid | pile | hostile | shapes | joints]\n";
+    std::cerr << "page_sample FILE.html [pyramid | pile | hostile | shapes | joints | soft]\n";
     return 2;
   }
   const avbd::Recording r = kind == "pile"      ? avbd::pileRun()
                             : kind == "hostile" ? avbd::hostile()
                             : kind == "shapes"  ? avbd::shapesRun()
                             : kind == "joints"  ? avbd::jointsRun()
+                            : kind == "soft"    ? avbd::softRun()
                                                 : avbd::pyramidRun();
   avbd::writePage(argv[1], r);
   return 0;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 
+#include "io/record/softs.h"
 #include "viewer/encode.h"
 
 namespace avbd {
@@ -73,6 +74,27 @@ std::string messageOf(const Recording& r) {
     return error.what();
   }
   return "";
+}
+
+TEST(Page, SoftBodiesAreSurfacesAndPlaces) {
+  Recording r = twoBodies();
+  const std::string before = pageOf(r);
+  EXPECT_EQ(before.find("\"softs\":"), std::string::npos);
+  RecordedSoft soft{"<i>flag</i>", true};
+  soft.points = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+  soft.surface = {{0, 2, 1}};
+  soft.elements = 1;
+  appendSoft(r, soft);
+  for (RecordedFrame& f : r.frames)
+    for (const Vec3 p : soft.points) f.poses.push_back({{double{p.x}, f.time, double{p.z}}, {}});
+  r.frames[1].poses[3].position.x = std::numeric_limits<double>::quiet_NaN();
+  const std::string page = pageOf(r);
+  EXPECT_NE(page.find("\"softs\":[{\"name\":\"\\u003ci\\u003eflag"), std::string::npos);
+  EXPECT_EQ(page.find("flag\\u003c/i\\u003e_0"), std::string::npos) << "points need no names";
+  // Three points in three frames, nine bytes each.
+  EXPECT_EQ(frameCharacters(page) - frameCharacters(before), size_t{3 * 3 * 9 * 4 / 3});
+  r.softs[0].surface[0][0] = 3;
+  EXPECT_NE(messageOf(r).find("softs[0].surface = 3"), std::string::npos);
 }
 
 /// The reader's side of packRotation, as in src/recording.js.

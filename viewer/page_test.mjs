@@ -346,7 +346,67 @@ async function testJoints() {
   await page.close();
 }
 
+/// The panel tells figures of a soft body that was clicked, by the name of its scene.
+async function checkSoftSelection(page) {
+  const {x, y, front} = await ask(page, () => window.avbdViewer.project(window.avbdViewer.softs()[0].first + 115));
+  assert.ok(front >= 2 && front < 2 + 441, `a point of the cloth is met: ${front}`);
+  await page.mouse.click(x, y);
+  const text = await page.locator('.selection').innerText();
+  assert.match(text, /<b>flag<\/b>\s+cloth, point \d+/);
+  assert.match(text, /particles\s+441\s+elements\s+800 triangles/);
+  assert.match(text, /largest strain\s+\+\d/);
+  await ask(page, () => window.avbdViewer.select(window.avbdViewer.softs()[1].first));
+  assert.match(await page.locator('.selection').innerText(), /cube\s+soft body, point 0[^]*volume\s+0\.75 m³, 75\.0 % of rest/);
+  await page.keyboard.press('f');
+  await settle(page);
+  await page.keyboard.press('r');
+  await page.keyboard.press('Escape');
+}
+
+/// Soft bodies show as surfaces in their colours; mesh, strain and points come and go.
+async function testSoft() {
+  const {page, complaints} = await open('soft');
+  await ask(page, () => { window.avbdViewer.setQuality('2'); window.avbdViewer.seek(1); });
+  await page.mouse.move(500, 90);
+  const plain = await pixels(page);
+  const [cloth, cube] = await ask(page, () => window.avbdViewer.softs());
+  assert.deepEqual([cloth.name, cloth.cloth, cloth.points, cloth.triangles, cloth.vertices], ['<b>flag</b>', true, 441, 800, 441]);
+  // A vertex for each of the faces that meet at an edge or a corner of the cube.
+  assert.deepEqual([cube.name, cube.cloth, cube.points, cube.triangles, cube.vertices], ['cube', false, 125, 192, 6 * 25]);
+  assert.ok(cloth.largest > 0.1 && cloth.largest < 0.2, `the cloth is stretched: ${cloth.largest}`);
+  assert.ok(Math.abs(cube.largest + 0.25) < 1e-4, `the cube is pressed: ${cube.largest}`);
+  assert.ok(Math.abs(cube.volume - 0.75) < 1e-4 && Math.abs(cube.restVolume - 1) < 1e-6, 'the volume is that within the surface');
+  const side = await ask(page, () => window.avbdViewer.project(window.avbdViewer.softs()[1].first + 52));
+  const [red, green, blue] = plain(side.x, side.y);
+  assert.ok(red > 2 * green && red > 2 * blue, `the cube has its own colour: ${red} ${green} ${blue}`);
+  for (const [name, key, changed] of [['Mesh', 'w', 500], ['Strain', 's', 3000], ['Points', 'o', 500]]) {
+    await page.locator('.chip', {hasText: name}).first().click();
+    await page.mouse.move(500, 90);
+    const on = await pixels(page);
+    assert.ok(differing(plain, on) > changed, `${name} shows something: ${differing(plain, on)}`);
+    await page.screenshot({path: join(work, `soft_${name}.png`)});
+    if (name === 'Strain') {
+      const [r, g, b] = on(side.x, side.y);
+      assert.ok(b > r && b > g, `what is pressed is blue: ${r} ${g} ${b}`);
+      assert.match(await page.locator('.legend').innerText(), /−25\.0 %\s+0\s+\+25\.0 %/);
+    }
+    await page.keyboard.press(key);
+    assert.ok(differing(plain, await pixels(page)) < 30, `${name} goes away again`);
+  }
+  const balls = (await ask(page, () => window.avbdViewer.meshes())).filter(({name}) => name.includes('ball'));
+  assert.deepEqual(balls.map(({count, visible}) => [count, visible]), [[441 + 98, false]]);
+  await page.keyboard.press('n');
+  await settle(page);
+  assert.equal(await ask(page, () => window.avbdViewer.labels), 3, 'the box and two soft bodies');
+  await page.keyboard.press('n');
+  assert.match(await page.locator('.title').innerText(), /1 moving {2}· {2}1 static {2}· {2}2 soft/);
+  await checkSoftSelection(page);
+  assert.deepEqual(complaints, []);
+  await page.close();
+}
+
 try {
+  await testSoft();
   await testJoints();
   await testShapes();
   await testPyramid();

@@ -18,14 +18,13 @@ constexpr uint32_t typeOf(const char (&name)[5]) {
 }
 inline constexpr uint32_t kMeta = typeOf("META"), kBodies = typeOf("BODY"), kSurfaces = typeOf("SURF"),
                           kShapes = typeOf("SHAP"), kJoints = typeOf("JOIN"), kFrames = typeOf("FRAM"),
-                          kIndex = typeOf("INDX"), kRun = typeOf("RUNA"), kSteps = typeOf("STEP");
-/// Reserved: positions of soft bodies' vertices over a run of frames.
-inline constexpr uint32_t kSoftFrames = typeOf("SOFT");
+                          kIndex = typeOf("INDX"), kRun = typeOf("RUNA"), kSteps = typeOf("STEP"),
+                          kSofts = typeOf("SOFT");
 std::string typeName(uint32_t type);
 
 // The file's head: magic, major and minor version, checksum.
 inline constexpr uint8_t kMagic[8] = {0x89, 'A', 'V', 'B', 'D', '\r', '\n', 0x1a};
-inline constexpr uint16_t kMajor = 1, kMinor = 2;
+inline constexpr uint16_t kMajor = 1, kMinor = 3;
 inline constexpr size_t kFileHeadBytes = 16;
 Bytes fileHead();
 /// Throws FileError, which names what is wrong: no recording, a damaged head, a version that this reader cannot read.

@@ -6,6 +6,7 @@
 #include "io/file_error.h"
 #include "io/record/chunk.h"
 #include "io/record/limits.h"
+#include "io/record/softs.h"
 
 namespace avbd::record {
 namespace {
@@ -36,7 +37,7 @@ Bytes bodiesContent(const Recording& r) {
   FieldWriter out;
   std::vector<std::string> names;
   std::vector<uint8_t> types;
-  for (const RecordedBody& body : r.bodies) {
+  for (const RecordedBody& body : std::span(r.bodies).first(solidBodies(r))) {
     names.push_back(body.name);
     types.push_back(static_cast<uint8_t>(body.type));
   }
@@ -56,6 +57,8 @@ bool HeadReader::take(uint32_t type, const FieldReader& fields) {
     takeShapes(fields);
   else if (type == kJoints)
     takeJoints(fields);
+  else if (type == kSofts)
+    takeSofts(fields);
   else
     return false;
   return true;
@@ -85,6 +88,7 @@ void HeadReader::refuseMore(const FieldReader& f, uint16_t id, size_t held) cons
 
 void HeadReader::takeBodies(const FieldReader& f) {
   refuseMore(f, kNames, recording.bodies.size());
+  if (!recording.softs.empty()) f.refuse(kNames, "adds bodies behind soft bodies");
   const std::vector<std::string> names = f.texts(kNames);
   const std::vector<uint8_t> types = f.listOf<uint8_t>(kTypes, names.size());
   for (size_t i = 0; i < names.size(); ++i) {

@@ -17,6 +17,7 @@ namespace avbd::record {
 Bytes metaContent(const Recording& recording);
 Bytes bodiesContent(const Recording& recording);
 Bytes jointsContent(const Recording& recording);
+Bytes softsContent(const Recording& recording);
 
 /// Hulls, meshes and height fields, each once however many shapes use it.
 class Surfaces {
@@ -31,6 +32,9 @@ class Surfaces {
   std::map<std::pair<size_t, uint64_t>, uint32_t> numbers_;  // by kind and content hash
   std::vector<Data> all_;
 };
+/// Red in the lowest byte; 0, which nobody sees, is no colour.
+uint32_t packedColor(const std::optional<Color>& color);
+std::optional<Color> unpackedColor(uint32_t color);
 Bytes surfaceContent(const Surfaces::Data& data);
 Bytes shapesContent(const Recording& recording, Surfaces& surfaces);
 
@@ -56,14 +60,16 @@ struct HeadReader {
   void takeSurface(const FieldReader& f);
   void takeShapes(const FieldReader& f);
   void takeJoints(const FieldReader& f);
+  void takeSofts(const FieldReader& f);
   void refuseMore(const FieldReader& f, uint16_t id, size_t held) const;
   Geometry geometryOf(uint8_t kind, const float size[4], uint32_t surface, const FieldReader& f);
 };
 
-/// A run of frames as columns.
+/// A run of frames as columns. The points of soft bodies have none but their own.
 struct FrameBlock {
   uint64_t first = 0;
-  uint32_t bodies = 0;
+  uint32_t bodies = 0;  ///< that are no points
+  uint32_t points = 0;
   bool hasVelocities = false;
   std::vector<double> times, positions;
   std::vector<float> rotations, linear, angular;
@@ -80,6 +86,8 @@ struct FrameBlock {
   std::vector<uint8_t> jointEnabled;
   size_t residualsEach = 0;  ///< of each frame; 0: not known
   std::vector<float> residuals;
+  std::vector<int64_t> pointPlaces;                                          ///< in steps of their soft bodies
+  std::vector<uint32_t> contactBallA, contactBallB, eventBallA, eventBallB;  ///< index among the points' shapes
 
   size_t size() const { return times.size(); }
   /// At least what its content takes.
@@ -92,6 +100,8 @@ struct FrameBlock {
 
  private:
   void addJoints(const RecordedFrame& frame);
+  void addPoints(const RecordedFrame& frame, const Recording& head);
+  void placePoints(size_t i, const Recording& head, RecordedFrame& out) const;
 };
 Bytes framesContent(const FrameBlock& block);
 /// Throws FileError for a run that does not fit in itself, or names bodies, shapes or kinds that there are not.

@@ -1,9 +1,11 @@
 // What stands in a recording, in lines for a person.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <span>
 
 #include "io/record/chunk.h"
 #include "io/record/json.h"
@@ -11,6 +13,9 @@
 
 namespace avbd {
 namespace {
+
+constexpr std::ptrdiff_t kJointsLine = 6;  // of the description
+constexpr size_t kSoftsTold = 8;
 
 std::string number(double value) {
   char text[32];
@@ -54,6 +59,18 @@ std::string jointsText(const Recording& head) {
   return text;
 }
 
+std::string softsText(const Recording& head) {
+  std::string text = std::to_string(head.softs.size());
+  const char* comma = ": ";
+  for (const RecordedSoft& soft : std::span(head.softs).first(std::min(kSoftsTold, head.softs.size()))) {
+    text.append(comma).append(soft.name).append(soft.cloth ? " (cloth, " : " (solid, ");
+    text.append(std::to_string(soft.points.size())).append(" particles, ");
+    text.append(std::to_string(soft.elements)).append(soft.cloth ? " triangles)" : " tetrahedra)");
+    comma = ", ";
+  }
+  return head.softs.size() > kSoftsTold ? text + ", ..." : text;
+}
+
 std::string framesText(const RecordingInfo& info) {
   const std::string count = std::to_string(info.frames);
   return info.frames == 0 ? count : count + ", " + number(info.firstTime) + " s to " + number(info.lastTime) + " s";
@@ -76,6 +93,7 @@ std::vector<std::pair<std::string, std::string>> describeRecording(const std::fi
       {"frames", framesText(info)},
       {"finished", info.finished ? "yes" : "no"},
   };
+  if (!head.softs.empty()) lines.insert(lines.begin() + kJointsLine + 1, {"soft bodies", softsText(head)});
   if (head.dt > 0) lines.emplace_back("step", number(head.dt) + " s");
   // The run's own report counts bodies and shapes, too.
   for (const auto& [label, value] : head.report) lines.emplace_back("run: " + label, value);

@@ -2,6 +2,7 @@
 #include "io/record/export.h"
 
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "io/record/json.h"
@@ -113,6 +114,15 @@ void printLink(std::ostream& out, const RecordedJoint& joint) {
   if (joint.residuals > 0) out << ",\"residuals\":" << +joint.residuals;
 }
 
+void printSoft(std::ostream& out, const RecordedSoft& soft) {
+  out << "{\"name\":" << jsonText(soft.name) << ",\"cloth\":" << (soft.cloth ? "true" : "false")
+      << ",\"firstBody\":" << soft.firstBody << ",\"elements\":" << soft.elements << ',';
+  printList(out, "points", soft.points, [&](Vec3 point) { out << jsonList(point); });
+  printList(out << ',', "surface", soft.surface,
+            [&](const auto& face) { out << '[' << face[0] << ',' << face[1] << ',' << face[2] << ']'; });
+  out << '}';
+}
+
 /// What is known of a joint beyond its anchors; null is a limit that there is not.
 void printJointForm(std::ostream& out, const RecordedJoint& joint) {
   out << ",\"type\":\"" << jointTypeName(*joint.type) << "\",\"name\":" << jsonText(joint.name)
@@ -156,6 +166,7 @@ void printHead(std::ostream& out, const Recording& head) {
     if (joint.type) printJointForm(out, joint);
     out << '}';
   });
+  printList(out << ",\n", "softs", head.softs, [&](const RecordedSoft& soft) { printSoft(out, soft); });
   printList(out << ",\n", "report", head.report,
             [&](const auto& line) { out << '[' << jsonText(line.first) << ',' << jsonText(line.second) << ']'; });
 }
@@ -235,7 +246,7 @@ std::vector<std::string> exportCsv(RecordReader& reader, std::ostream& out) {
       rows += time.substr(1) + "," + names[i];
       for (const double v : {p.x, p.y, p.z}) appendNumber(rows, v);
       for (const float v : {q.w, q.x, q.y, q.z}) appendNumber(rows, v);
-      if (f.velocities.empty()) {
+      if (f.velocities.empty() || std::isnan(f.velocities[i].linear.x)) {
         rows += ",,,,,,\n";
         continue;
       }

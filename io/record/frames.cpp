@@ -1,9 +1,11 @@
 // Frames as columns, and the columns as fields.
+#include <algorithm>
 #include <limits>
 
 #include "io/file_error.h"
 #include "io/record/content.h"
 #include "io/record/limits.h"
+#include "io/record/softs.h"
 
 namespace avbd::record {
 namespace {
@@ -29,6 +31,8 @@ enum FrameField : uint16_t {
   kContactForce = 25,
   kContactNormal = 26,
   kContactSeparation = 27,
+  kContactBallA = 28,
+  kContactBallB = 29,
   kEventCounts = 30,
   kEventKind = 31,
   kEventA = 32,
@@ -37,14 +41,18 @@ enum FrameField : uint16_t {
   kEventNormal = 35,
   kEventSpeed = 36,
   kEventImpulse = 37,
+  kEventBallA = 38,
+  kEventBallB = 39,
   kJointCount = 40,
   kJointForce = 41,
   kJointTorque = 42,
   kJointEnabled = 43,
   kResiduals = 44,
+  kPointCount = 50,
+  kPointPlaces = 51,
 };
 
-constexpr size_t kFieldHeads = 40 * 12;  // of all fields
+constexpr size_t kFieldHeads = 48 * 12;  // of all fields
 
 void append(std::vector<float>& out, Vec3 v) { out.insert(out.end(), {v.x, v.y, v.z}); }
 void append(std::vector<double>& out, Vec3d v) { out.insert(out.end(), {v.x, v.y, v.z}); }
@@ -74,9 +82,25 @@ size_t sum(const std::vector<uint32_t>& counts, size_t end) {
 }
 
 /// Shapes are named or unknown.
-void checkShapes(const FieldReader& f, uint16_t id, const std::vector<uint32_t>& shapes, const Recording& head) {
+void checkShapes(const FieldReader& f, uint16_t id, const std::vector<uint32_t>& shapes, size_t count) {
   for (const uint32_t shape : shapes)
-    if (shape != kNotRecorded && shape >= head.shapes.size()) f.refuse(id, "names a shape that there is not");
+    if (shape != kNotRecorded && shape >= count) f.refuse(id, "names a shape that there is not");
+}
+
+/// A shape in two columns: one for those that are no balls of points, and one for balls.
+void addShape(uint32_t shape, size_t solid, std::vector<uint32_t>& shapes, std::vector<uint32_t>& balls) {
+  const bool ball = shape != kNotRecorded && shape >= solid;
+  shapes.push_back(ball ? kNotRecorded : shape);
+  balls.push_back(ball ? shape - static_cast<uint32_t>(solid) : kNotRecorded);
+}
+uint32_t shapeAt(const std::vector<uint32_t>& shapes, const std::vector<uint32_t>& balls, size_t i, size_t solid) {
+  const uint32_t ball = at(balls, i, kNotRecorded);
+  return ball == kNotRecorded ? at(shapes, i, kNotRecorded) : ball + static_cast<uint32_t>(solid);
+}
+
+void putBalls(FieldWriter& out, uint16_t id, const std::vector<uint32_t>& balls) {
+  const bool any = std::any_of(balls.begin(), balls.end(), [](uint32_t ball) { return ball != kNotRecorded; });
+  if (any) out.list(id, balls, Encoding::Shuffled);
 }
 
 void readJoints(const FieldReader& f, const Recording& head, FrameBlock& b) {
@@ -93,12 +117,29 @@ void readJoints(const FieldReader& f, const Recording& head, FrameBlock& b) {
   b.residuals = f.listOf<float>(kResiduals, b.size() * b.residualsEach);
 }
 
+void readBalls(const FieldReader& f, const Recording& head, size_t contacts, size_t events, FrameBlock& b) {
+  const size_t solid = solidShapes(head), balls = head.shapes.size() - solid;
+  checkShapes(f, kContactA, b.contactA, solid);
+  checkShapes(f, kContactB, b.contactB, solid);
+  checkShapes(f, kEventA, b.eventA, solid);
+  checkShapes(f, kEventB, b.eventB, solid);
+  const auto read = [&](uint16_t id, size_t count, std::vector<uint32_t>& list) {
+    list = f.listOf<uint32_t>(id, count);
+    checkShapes(f, id, list, balls);
+  };
+  read(kContactBallA, contacts, b.contactBallA);
+  read(kContactBallB, contacts, b.contactBallB);
+  read(kEventBallA, events, b.eventBallA);
+  read(kEventBallB, events, b.eventBallB);
+}
+
 }  // namespace
 
 size_t FrameBlock::bytes() const {
   return kFieldHeads + 8 * (positions.size() + 8 * times.size() + eventPosition.size()) +
          4 * (rotations.size() + 2 * linear.size() + 12 * contactA.size() + 8 * eventA.size()) +
-         25 * jointEnabled.size() + 4 * residuals.size();
+         25 * jointEnabled.size() + 4 * residuals.size() + 8 * pointPlaces.size() +
+         8 * (contactBallA.size() + eventBallA.size());
 }
 
 size_t FrameBlock::bytesOf(const RecordedFrame& f) {
@@ -107,14 +148,15 @@ size_t FrameBlock::bytesOf(const RecordedFrame& f) {
 }
 
 void FrameBlock::add(const RecordedFrame& f, const Recording& head) {
-  bodies = static_cast<uint32_t>(f.poses.size());
+  const size_t solid = solidShapes(head);
+  bodies = static_cast<uint32_t>(solidBodies(head));
   hasVelocities = !f.velocities.empty();
   times.push_back(f.time);
-  for (const Pose& pose : f.poses) {
+  for (const Pose& pose : std::span(f.poses).first(bodies)) {
     append(positions, pose.position);
     rotations.insert(rotations.end(), {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z});
   }
-  for (const Velocity& velocity : f.velocities) {
+  for (const Velocity& velocity : std::span(f.velocities).first(hasVelocities ? bodies : 0)) {
     append(linear, velocity.linear);
     append(angular, velocity.angular);
   }
@@ -124,12 +166,13 @@ void FrameBlock::add(const RecordedFrame& f, const Recording& head) {
   excess.push_back(f.limitExcessMax);
   excessAngle.push_back(f.limitExcessAngleMax);
   addJoints(f);
+  addPoints(f, head);
   contactCounts.push_back(static_cast<uint32_t>(f.contacts.size()));
   contactsLeftOut.push_back(f.contactsLeftOut);
   for (const RecordedContact& c : f.contacts) {
-    contactA.push_back(c.shapeA);
-    contactB.push_back(c.shapeB);
-    append(contactOffset, toFloat(c.position - baseOf(c.shapeA, c.shapeB, head, f.poses)));
+    addShape(c.shapeA, solid, contactA, contactBallA);
+    addShape(c.shapeB, solid, contactB, contactBallB);
+    append(contactOffset, toFloat(c.position - baseOf(contactA.back(), contactB.back(), head, f.poses)));
     append(contactForce, c.force);
     append(contactNormal, c.normal);
     contactSeparation.push_back(c.separation);
@@ -137,8 +180,8 @@ void FrameBlock::add(const RecordedFrame& f, const Recording& head) {
   eventCounts.push_back(static_cast<uint32_t>(f.events.size()));
   for (const RecordedEvent& e : f.events) {
     eventKind.push_back(static_cast<uint8_t>(e.kind));
-    eventA.push_back(e.shapeA);
-    eventB.push_back(e.shapeB);
+    addShape(e.shapeA, solid, eventA, eventBallA);
+    addShape(e.shapeB, solid, eventB, eventBallB);
     append(eventPosition, e.position);
     append(eventNormal, e.normal);
     eventSpeed.push_back(e.speed);
@@ -157,8 +200,29 @@ void FrameBlock::addJoints(const RecordedFrame& f) {
   residuals.insert(residuals.end(), f.residuals.begin(), f.residuals.end());
 }
 
+void FrameBlock::addPoints(const RecordedFrame& f, const Recording& head) {
+  points = static_cast<uint32_t>(pointCount(head));
+  for (const RecordedSoft& soft : head.softs)
+    for (size_t i = 0; i < soft.points.size(); ++i) {
+      const Vec3d p = f.poses[soft.firstBody + i].position;
+      for (const double x : {p.x, p.y, p.z}) pointPlaces.push_back(stepsOf(x, soft.step));
+    }
+}
+
+void FrameBlock::placePoints(size_t i, const Recording& head, RecordedFrame& out) const {
+  size_t from = 3 * i * points;
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  for (const RecordedSoft& soft : head.softs)
+    for (size_t k = 0; k < soft.points.size(); ++k, from += 3) {
+      const auto place = [&](size_t axis) { return static_cast<double>(pointPlaces[from + axis]) * soft.step; };
+      out.poses.push_back({{place(0), place(1), place(2)}, {}});
+      if (hasVelocities) out.velocities.push_back({{kUnknown, kUnknown, kUnknown}, {kUnknown, kUnknown, kUnknown}});
+    }
+}
+
 RecordedFrame FrameBlock::frame(size_t i, const Recording& head) const {
   RecordedFrame f;
+  const size_t solid = solidShapes(head);
   f.time = times[i];
   f.poses.resize(bodies);
   for (size_t k = 0, from = i * bodies; k < bodies; ++k, ++from) {
@@ -166,6 +230,7 @@ RecordedFrame FrameBlock::frame(size_t i, const Recording& head) const {
     f.poses[k] = {vectorAt(positions, from), {q[0], q[1], q[2], q[3]}};
     if (hasVelocities) f.velocities.push_back({vectorAt(linear, from), vectorAt(angular, from)});
   }
+  placePoints(i, head, f);
   f.kineticEnergy = at(kineticEnergy, i);
   f.penetrationMax = at(penetration, i);
   f.jointGapMax = at(gap, i);
@@ -180,12 +245,13 @@ RecordedFrame FrameBlock::frame(size_t i, const Recording& head) const {
   for (size_t from = sum(contactCounts, i), left = at(contactCounts, i); left > 0; --left, ++from) {
     const uint32_t a = at(contactA, from, kNotRecorded), b = at(contactB, from, kNotRecorded);
     f.contacts.push_back({baseOf(a, b, head, f.poses) + vectorAt(contactOffset, from), vectorAt(contactForce, from),
-                          vectorAt(contactNormal, from), at(contactSeparation, from), a, b});
+                          vectorAt(contactNormal, from), at(contactSeparation, from),
+                          shapeAt(contactA, contactBallA, from, solid), shapeAt(contactB, contactBallB, from, solid)});
   }
   for (size_t from = sum(eventCounts, i), left = at(eventCounts, i); left > 0; --left, ++from)
-    f.events.push_back({static_cast<RecordedEventKind>(eventKind[from]), at(eventA, from, kNotRecorded),
-                        at(eventB, from, kNotRecorded), vectorAt(eventPosition, from), vectorAt(eventNormal, from),
-                        at(eventSpeed, from), at(eventImpulse, from)});
+    f.events.push_back({static_cast<RecordedEventKind>(eventKind[from]), shapeAt(eventA, eventBallA, from, solid),
+                        shapeAt(eventB, eventBallB, from, solid), vectorAt(eventPosition, from),
+                        vectorAt(eventNormal, from), at(eventSpeed, from), at(eventImpulse, from)});
   return f;
 }
 
@@ -200,6 +266,10 @@ Bytes framesContent(const FrameBlock& b) {
     out.list(kLinear, b.linear, Encoding::Delta, 3 * b.bodies);
     out.list(kAngular, b.angular, Encoding::Delta, 3 * b.bodies);
   }
+  if (b.points > 0) {
+    out.value(kPointCount, b.points);
+    out.list(kPointPlaces, secondDifferences(b.pointPlaces, size_t{3} * b.points), Encoding::Delta, 3);
+  }
   out.list(kKineticEnergy, b.kineticEnergy, Encoding::Shuffled);
   out.list(kPenetration, b.penetration, Encoding::Shuffled);
   out.list(kGap, b.gap, Encoding::Shuffled);
@@ -209,6 +279,8 @@ Bytes framesContent(const FrameBlock& b) {
   out.list(kContactsLeftOut, b.contactsLeftOut);
   out.list(kContactA, b.contactA, Encoding::Shuffled);
   out.list(kContactB, b.contactB, Encoding::Shuffled);
+  putBalls(out, kContactBallA, b.contactBallA);
+  putBalls(out, kContactBallB, b.contactBallB);
   out.list(kContactOffset, b.contactOffset, Encoding::Shuffled);
   out.list(kContactForce, b.contactForce, Encoding::Shuffled);
   out.list(kContactNormal, b.contactNormal, Encoding::Shuffled);
@@ -217,6 +289,8 @@ Bytes framesContent(const FrameBlock& b) {
   out.list(kEventKind, b.eventKind);
   out.list(kEventA, b.eventA, Encoding::Shuffled);
   out.list(kEventB, b.eventB, Encoding::Shuffled);
+  putBalls(out, kEventBallA, b.eventBallA);
+  putBalls(out, kEventBallB, b.eventBallB);
   out.list(kEventPosition, b.eventPosition, Encoding::Shuffled);
   out.list(kEventNormal, b.eventNormal, Encoding::Shuffled);
   out.list(kEventSpeed, b.eventSpeed, Encoding::Shuffled);
@@ -232,7 +306,11 @@ Bytes framesContent(const FrameBlock& b) {
 
 std::pair<uint64_t, std::vector<double>> timesOf(const FieldReader& f, const Recording& head) {
   const size_t bodies = f.value<uint32_t>(kBodyCount, 0), all = f.count(kTimes) * bodies;
-  if (bodies != head.bodies.size()) f.refuse(kBodyCount, "does not fit the bodies");
+  if (bodies != solidBodies(head)) f.refuse(kBodyCount, "does not fit the bodies");
+  const size_t points = pointCount(head);
+  if (points > 0 &&
+      (f.value<uint32_t>(kPointCount, 0) != points || f.count(kPointPlaces) != 3 * points * f.count(kTimes)))
+    f.refuse(kPointPlaces, "does not fit the soft bodies");
   if (f.count(kPositions) != 3 * all || f.count(kRotations) != 4 * all) f.refuse(kTimes, "does not fit the poses");
   return {f.value<uint64_t>(kFirst, 0), f.list<double>(kTimes)};
 }
@@ -245,6 +323,8 @@ FrameBlock framesOf(const FieldReader& f, const Recording& head) {
   const size_t all = n * b.bodies;
   b.positions = f.listOf<double>(kPositions, 3 * all);
   b.rotations = f.listOf<float>(kRotations, 4 * all);
+  b.points = static_cast<uint32_t>(pointCount(head));
+  if (b.points > 0) b.pointPlaces = sumsOf(f.listOf<int64_t>(kPointPlaces, 3 * n * b.points), size_t{3} * b.points);
   b.linear = f.listOf<float>(kLinear, 3 * all);
   b.angular = f.listOf<float>(kAngular, 3 * all);
   b.hasVelocities = f.has(kLinear);
@@ -275,10 +355,7 @@ FrameBlock framesOf(const FieldReader& f, const Recording& head) {
   b.eventNormal = f.listOf<float>(kEventNormal, 3 * events);
   b.eventSpeed = f.listOf<float>(kEventSpeed, events);
   b.eventImpulse = f.listOf<float>(kEventImpulse, events);
-  checkShapes(f, kContactA, b.contactA, head);
-  checkShapes(f, kContactB, b.contactB, head);
-  checkShapes(f, kEventA, b.eventA, head);
-  checkShapes(f, kEventB, b.eventB, head);
+  readBalls(f, head, contacts, events, b);
   for (const uint8_t kind : b.eventKind)
     if (kind > static_cast<uint8_t>(RecordedEventKind::Hit)) f.refuse(kEventKind, "names a kind that there is not");
   return b;

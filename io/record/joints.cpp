@@ -139,7 +139,7 @@ void HeadReader::takeJoints(const FieldReader& f) {
     recording.joints.push_back(c.joint(i));
     unknown = unknown || (!c.types.empty() && c.types[i] != kNoType && !recording.joints.back().type);
   }
-  if (unknown) notes.push_back("joints of types that are not known to this version show as points alone");
+  if (unknown) notes.emplace_back("joints of types that are not known to this version show as points alone");
 }
 
 }  // namespace avbd::record

@@ -252,6 +252,7 @@ std::vector<std::string> exportMcap(RecordReader& reader, std::ostream& out, con
     const auto time = static_cast<uint64_t>(std::llround(std::clamp(f.time, 0.0, 9e9) * 1e9));
     if (first) file.message(kMcapScene, time, messages.scene(time));
     first = false;
+    if (!reader.head().softs.empty()) file.message(kMcapScene, time, messages.softs(f, time));
     file.message(kMcapTransforms, time, messages.transforms(f, time));
     file.message(kMcapFigures, time, messages.figures(f));
     // What is shown is the last message: an empty one takes contacts off that have ended.

@@ -1,9 +1,12 @@
 // Bodies as frames, shapes as primitives of their bodies' frames.
 #include "io/record/mcap_messages.h"
 
+#include <algorithm>
+#include <optional>
 #include <set>
 
 #include "io/record/json.h"
+#include "io/record/softs.h"
 
 namespace avbd::record {
 namespace {
@@ -106,13 +109,12 @@ class Primitives {
 };
 
 /// The file's own, opaque; else bodies differ by the golden ratio's steps around a simple colour wheel.
-std::string colorText(const RecordedShape& shape, BodyType type) {
+std::string colorText(const std::optional<Color>& given, uint32_t body, BodyType type, bool trigger) {
   const auto text = [&](double r, double g, double b) {
     return "\"color\":{\"r\":" + jsonNumber(r) + ",\"g\":" + jsonNumber(g) + ",\"b\":" + jsonNumber(b) +
-           ",\"a\":" + (shape.trigger ? "0.3" : "1") + "}";
+           ",\"a\":" + (trigger ? "0.3" : "1") + "}";
   };
-  if (const auto& c = shape.color) return text(c->red / 255.0, c->green / 255.0, c->blue / 255.0);
-  const uint32_t body = shape.body;
+  if (given) return text(given->red / 255.0, given->green / 255.0, given->blue / 255.0);
   const double hue = type == BodyType::Static ? 0 : static_cast<double>(body * 618u % 1000u) / 1000;
   const auto channel = [&](double shift) {
     if (type == BodyType::Static) return 0.5;
@@ -121,6 +123,25 @@ std::string colorText(const RecordedShape& shape, BodyType type) {
     return 0.25 + 0.65 * wave;
   };
   return text(channel(0), channel(1.0 / 3), channel(2.0 / 3));
+}
+
+/// `frame` with its quotes.
+std::string entityText(uint64_t nanoseconds, const std::string& frame, const std::string& id, bool locked,
+                       const std::string& primitives) {
+  return "{\"timestamp\":" + timeText(nanoseconds) + ",\"frame_id\":" + frame + ",\"id\":\"" + id +
+         "\",\"lifetime\":{\"sec\":0,\"nsec\":0},\"frame_locked\":" + (locked ? "true" : "false") +
+         ",\"metadata\":[],\"arrows\":[],\"lines\":[],\"texts\":[],\"models\":[]," + primitives + "}";
+}
+
+/// The triangles among a soft body's `corners`.
+std::string indicesText(const RecordedSoft& soft, const std::vector<uint32_t>& corners) {
+  std::string text = "\"indices\":[";
+  for (const auto& face : soft.surface)
+    for (const uint32_t point : face) {
+      const auto at = std::lower_bound(corners.begin(), corners.end(), point) - corners.begin();
+      text.append(text.back() == '[' ? "" : ",").append(std::to_string(at));
+    }
+  return text + "]";
 }
 
 }  // namespace
@@ -144,19 +165,39 @@ McapMessages::McapMessages(const Recording& head) : head_(head) {
     while (!taken.insert(name).second) name.append("#").append(std::to_string(i));
     frames_.push_back(jsonText(name));
   }
+  for (const RecordedSoft& soft : head.softs) {
+    corners_.push_back(surfacePoints(soft));
+    triangles_.push_back(indicesText(soft, corners_.back()) + "," +
+                         colorText(soft.color, soft.firstBody, BodyType::Dynamic, false));
+  }
 }
 
 std::string McapMessages::scene(uint64_t nanoseconds) const {
   std::string out = "{\"deletions\":[],\"entities\":[";
-  for (size_t i = 0; i < head_.shapes.size(); ++i) {
+  for (size_t i = 0; i < solidShapes(head_); ++i) {
     const RecordedShape& shape = head_.shapes[i];
-    Primitives primitives(shape.pose, colorText(shape, head_.bodies[shape.body].type));
+    Primitives primitives(shape.pose, colorText(shape.color, shape.body, head_.bodies[shape.body].type, shape.trigger));
     std::visit(primitives, shape.geometry);
-    out += std::string(i ? "," : "") + "{\"timestamp\":" + timeText(nanoseconds) +
-           ",\"frame_id\":" + frames_[shape.body] + ",\"id\":\"shape_" + std::to_string(i) +
-           "\",\"lifetime\":{\"sec\":0,\"nsec\":0},\"frame_locked\":true,\"metadata\":[],\"arrows\":[],\"lines\":[],"
-           "\"texts\":[],\"models\":[]," +
-           primitives.text() + "}";
+    out += std::string(i ? "," : "") +
+           entityText(nanoseconds, frames_[shape.body], "shape_" + std::to_string(i), true, primitives.text());
+  }
+  return out + "]}";
+}
+
+std::string McapMessages::softs(const RecordedFrame& frame, uint64_t nanoseconds) const {
+  std::string out = "{\"deletions\":[],\"entities\":[";
+  for (size_t i = 0; i < head_.softs.size(); ++i) {
+    const RecordedSoft& soft = head_.softs[i];
+    const auto at = [&](size_t point) { return frame.poses[soft.firstBody + point].position; };
+    const Vec3d origin = soft.points.empty() ? Vec3d{} : at(0);
+    std::string points;
+    for (const uint32_t point : corners_[i])
+      points.append(points.empty() ? "" : ",").append(jsonObject(toDouble(toFloat(at(point) - origin))));
+    const std::string surface = "\"cubes\":[],\"spheres\":[],\"cylinders\":[],\"triangles\":[{" +
+                                poseText({origin, {}}) + ",\"points\":[" + points + "],\"colors\":[]," + triangles_[i] +
+                                "}]";
+    out +=
+        std::string(i ? "," : "") + entityText(nanoseconds, "\"world\"", "soft_" + std::to_string(i), false, surface);
   }
   return out + "]}";
 }
@@ -164,7 +205,7 @@ std::string McapMessages::scene(uint64_t nanoseconds) const {
 std::string McapMessages::transforms(const RecordedFrame& frame, uint64_t nanoseconds) const {
   std::string out = "{\"transforms\":[";
   const std::string head = "{\"timestamp\":" + timeText(nanoseconds) + ",\"parent_frame_id\":\"world\"";
-  for (size_t i = 0; i < frame.poses.size(); ++i)
+  for (size_t i = 0; i < solidBodies(head_); ++i)
     out += std::string(i ? "," : "") + head + ",\"child_frame_id\":" + frames_[i] +
            ",\"translation\":" + jsonObject(frame.poses[i].position) +
            ",\"rotation\":" + jsonObject(frame.poses[i].rotation) + "}";

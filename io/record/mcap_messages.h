@@ -22,8 +22,11 @@ class McapMessages {
  public:
   explicit McapMessages(const Recording& head);
 
-  /// All shapes, each locked to its body's frame.
+  /// All shapes but balls of soft bodies, each locked to its body's frame.
   std::string scene(uint64_t nanoseconds) const;
+  /// The surfaces of all soft bodies, in the world.
+  std::string softs(const RecordedFrame& frame, uint64_t nanoseconds) const;
+  /// Of all bodies that are no points of soft bodies.
   std::string transforms(const RecordedFrame& frame, uint64_t nanoseconds) const;
   std::string figures(const RecordedFrame& frame) const;
   std::string contacts(const RecordedFrame& frame) const;
@@ -31,7 +34,9 @@ class McapMessages {
 
  private:
   const Recording& head_;
-  std::vector<std::string> frames_;  // names of the bodies' frames, each once, as JSON
+  std::vector<std::vector<uint32_t>> corners_;  // of soft bodies: the points of their surfaces
+  std::vector<std::string> triangles_;          // their triangles, as numbers of those, and their colours
+  std::vector<std::string> frames_;             // names of the bodies' frames, each once, as JSON
 };
 
 }  // namespace avbd::record

@@ -14,11 +14,11 @@ using namespace record;
 namespace {
 
 bool isHead(uint32_t type) {
-  return type == kMeta || type == kBodies || type == kSurfaces || type == kShapes || type == kJoints;
+  return type == kMeta || type == kBodies || type == kSurfaces || type == kShapes || type == kJoints || type == kSofts;
 }
 
 /// Without these there is nothing to show the frames on.
-bool isNeeded(uint32_t type) { return type == kBodies || type == kSurfaces || type == kShapes; }
+bool isNeeded(uint32_t type) { return type == kBodies || type == kSurfaces || type == kShapes || type == kSofts; }
 
 /// For replay alone (run_again.h).
 bool isForReplay(uint32_t type) { return type == kRun || type == kSteps; }

@@ -231,6 +231,14 @@ RecordReader olderFile(uint16_t minor) {
   return reader;
 }
 
+TEST(Record, AFileOfVersionOneTwoLacksOnlyWhatCameLater) {
+  RecordReader reader = olderFile(2);
+  const Recording head = sampleHead();
+  EXPECT_TRUE(reader.head().softs.empty());
+  for (size_t i = 0; i < 2; ++i) expectSameJoint(reader.head().joints[i], head.joints[i]);
+  for (size_t i = 0; i < 5; ++i) expectSame(reader.frame(i), sampleFrame(head, i));
+}
+
 TEST(Record, AFileOfVersionOneOneLacksOnlyWhatCameLater) {
   RecordReader reader = olderFile(1);
   const Recording head = sampleHead();

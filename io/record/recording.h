@@ -94,7 +94,7 @@ struct RecordedJointState {
 struct RecordedFrame {
   double time = 0;
   std::vector<Pose> poses;           ///< of all bodies, in order of Recording::bodies
-  std::vector<Velocity> velocities;  ///< of all bodies, or empty
+  std::vector<Velocity> velocities;  ///< of all bodies, or empty; files do not keep those of points, which read as NaN
   std::vector<RecordedContact> contacts;
   uint32_t contactsLeftOut = 0;  ///< weaker contact points that `contacts` does not hold
   std::vector<RecordedEvent> events;
@@ -112,6 +112,22 @@ struct RecordedFrame {
   std::vector<float> residuals{};
 };
 
+/// A soft body. Its points are bodies, one after the other, behind all bodies that are no points; on each point of its
+/// surface is a ball, a shape behind all other shapes. appendSoft (softs.h) makes them.
+struct RecordedSoft {
+  std::string name;
+  bool cloth = false;
+  uint32_t firstBody = 0;      ///< index into bodies: that of the first point
+  uint32_t firstShape = 0;     ///< index into shapes: that of the first ball
+  std::vector<Vec3> points{};  ///< at rest [m]
+  std::vector<std::array<uint32_t, 3>>
+      surface{};                 ///< of points, anticlockwise seen from outside; of cloth all triangles
+  uint32_t elements = 0;         ///< tetrahedra or triangles
+  float radius = 0;              ///< [m] of the balls
+  double step = 0;               ///< [m] a file holds where points are in multiples of this
+  std::optional<Color> color{};  ///< as in RecordedShape
+};
+
 struct Recording {
   std::string title;
   std::string engine;  ///< name and version of what simulated
@@ -122,6 +138,7 @@ struct Recording {
   std::vector<RecordedJoint> joints;
   std::vector<RecordedFrame> frames;
   std::vector<std::pair<std::string, std::string>> report;  ///< lines of the report: label, value
+  std::vector<RecordedSoft> softs{};
 };
 
 /// Numbers in RecordedFrame::residuals where there are any.

@@ -3,7 +3,18 @@
 
 #include <algorithm>
 
+#include "io/record/softs.h"
+
 namespace avbd {
+namespace {
+
+std::string nameOf(const Model& model, SoftId id, size_t number) {
+  for (const NamedSoft& soft : model.softs)
+    if (soft.id == id) return soft.name;
+  return "soft_" + std::to_string(number);
+}
+
+}  // namespace
 
 RecordSource::RecordSource(const Model& model) {
   const World& world = model.world;
@@ -12,6 +23,7 @@ RecordSource::RecordSource(const Model& model) {
   head_.up = model.up;
   head_.dt = model.dt;
   for (const NamedBody& body : model.bodies) {
+    if (world.softBody(body.id)) continue;
     const auto slot = static_cast<uint32_t>(head_.bodies.size());
     bodies_[body.id.index] = slot;
     ids_.push_back(body.id);
@@ -24,7 +36,34 @@ RecordSource::RecordSource(const Model& model) {
       if (i < body.colors.size()) head_.shapes.back().color = body.colors[i];
     }
   }
+  addSofts(model);
   addJoints(model);
+}
+
+// Behind all bodies that are no points, in the order of their ids. Of other shapes that a point may have nothing is
+// kept.
+void RecordSource::addSofts(const Model& model) {
+  const World& world = model.world;
+  for (const SoftId id : world.softBodies()) {
+    const auto mesh = world.mesh(id);
+    RecordedSoft soft{nameOf(model, id, head_.softs.size()), mesh->isCloth()};
+    soft.points.assign(mesh->points().begin(), mesh->points().end());
+    soft.surface.assign(mesh->surface().begin(), mesh->surface().end());
+    soft.elements = mesh->report().elements;
+    soft.radius = world.radius(id);
+    uint32_t slot = static_cast<uint32_t>(head_.bodies.size()), ball = static_cast<uint32_t>(head_.shapes.size());
+    const std::vector<BodyId> particles = world.particles(id);
+    for (const BodyId particle : particles) {
+      bodies_[particle.index] = slot++;
+      ids_.push_back(particle);
+    }
+    for (const uint32_t point : surfacePoints(soft)) {
+      const std::vector<ShapeId> shapes = world.shapes(particles[point]);
+      if (!shapes.empty()) shapes_[shapes[0].index] = ball;
+      ++ball;
+    }
+    appendSoft(head_, std::move(soft));
+  }
 }
 
 uint32_t RecordSource::slotOf(BodyId id) const {

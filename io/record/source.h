@@ -26,6 +26,7 @@ class RecordSource {
  public:
   explicit RecordSource(const Model& model);
 
+  /// Bodies in the model's order but for the points of soft bodies, which come last.
   const Recording& head() const { return head_; }
   /// To be called after every step: keeps the events for the next frame, however many steps lie between two.
   void watch(const World& world);
@@ -38,6 +39,7 @@ class RecordSource {
 
  private:
   uint32_t slotOf(ShapeId id) const;
+  void addSofts(const Model& model);
   void addJoints(const Model& model);
   void addTerms(const World& world);
   void addJointStates(const World& world, RecordedFrame& frame) const;

@@ -6,6 +6,7 @@
 
 #include "io/file_error.h"
 #include "io/record/content.h"
+#include "io/record/softs.h"
 
 namespace avbd::record {
 namespace {
@@ -181,20 +182,19 @@ Geometry withData(const Surfaces::Data& data, Vec3 scale) {
   return shape;
 }
 
-// Red in the lowest byte; 0, which nobody sees, is no colour.
-uint32_t packed(const std::optional<Color>& color) {
+}  // namespace
+
+uint32_t packedColor(const std::optional<Color>& color) {
   if (!color) return 0;
   const auto at = [](uint8_t byte, int shift) { return static_cast<uint32_t>(byte) << shift; };
   return at(color->red, 0) | at(color->green, 8) | at(color->blue, 16) | at(color->alpha, 24);
 }
 
-std::optional<Color> unpacked(uint32_t color) {
+std::optional<Color> unpackedColor(uint32_t color) {
   if (color == 0) return {};
   const auto byte = [&](int shift) { return static_cast<uint8_t>(color >> shift & 0xff); };
   return Color{byte(0), byte(8), byte(16), byte(24)};
 }
-
-}  // namespace
 
 uint32_t Surfaces::add(const Geometry& geometry) {
   return std::visit(
@@ -224,7 +224,7 @@ Bytes shapesContent(const Recording& r, Surfaces& surfaces) {
   std::vector<uint8_t> kinds, flags;
   std::vector<float> sizes, rotations;
   std::vector<double> positions;
-  for (const RecordedShape& shape : r.shapes) {
+  for (const RecordedShape& shape : std::span(r.shapes).first(solidShapes(r))) {
     const Size size = std::visit([](const auto& geometry) { return sizeOf(geometry); }, shape.geometry);
     bodies.push_back(shape.body);
     kinds.push_back(static_cast<uint8_t>(shape.geometry.index()));
@@ -234,7 +234,7 @@ Bytes shapesContent(const Recording& r, Surfaces& surfaces) {
     positions.insert(positions.end(), {p.x, p.y, p.z});
     rotations.insert(rotations.end(), {q.w, q.x, q.y, q.z});
     flags.push_back(shape.trigger ? kTriggerFlag : 0);
-    colors.push_back(packed(shape.color));
+    colors.push_back(packedColor(shape.color));
   }
   FieldWriter out;
   out.list(kBody, bodies);
@@ -300,6 +300,7 @@ Geometry HeadReader::geometryOf(uint8_t kind, const float size[4], uint32_t surf
 
 void HeadReader::takeShapes(const FieldReader& f) {
   refuseMore(f, kBody, recording.shapes.size());
+  if (!recording.softs.empty()) f.refuse(kBody, "adds shapes behind soft bodies");
   const std::vector<uint32_t> bodies = f.list<uint32_t>(kBody);
   const size_t n = bodies.size();
   const std::vector<uint8_t> kinds = f.listOf<uint8_t>(kGeometry, n), flags = f.listOf<uint8_t>(kFlags, n);
@@ -317,7 +318,7 @@ void HeadReader::takeShapes(const FieldReader& f) {
                                 geometryOf(kinds[i], &sizes[4 * i], numbers[i], f),
                                 {{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}},
                                 !flags.empty() && (flags[i] & kTriggerFlag) != 0,
-                                colors.empty() ? std::nullopt : unpacked(colors[i])});
+                                colors.empty() ? std::nullopt : unpackedColor(colors[i])});
   }
 }
 

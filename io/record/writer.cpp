@@ -8,6 +8,7 @@
 #include "io/record/chunk.h"
 #include "io/record/limits.h"
 #include "io/record/reader.h"
+#include "io/record/softs.h"
 
 namespace avbd {
 
@@ -57,6 +58,7 @@ void checkHead(const Recording& r) {
          {r.joints[i].bodyA, r.joints[i].bodyB, r.joints[i].moreBodies[0], r.joints[i].moreBodies[1]})
       if (body != kNotRecorded && body >= r.bodies.size())
         refuse("joints[" + std::to_string(i) + "].body", std::to_string(body), range);
+  checkSofts(r);
   for (size_t i = 0; i < r.joints.size(); ++i) {
     const std::string name = "joints[" + std::to_string(i) + "].";
     checkJoint(r.joints[i], name);
@@ -65,7 +67,7 @@ void checkHead(const Recording& r) {
 }
 
 Recording withoutFrames(const Recording& r) {
-  return {r.title, r.engine, r.up, r.dt, r.bodies, r.shapes, r.joints, {}, r.report};
+  return {r.title, r.engine, r.up, r.dt, r.bodies, r.shapes, r.joints, {}, r.report, r.softs};
 }
 
 const Recording& checked(const Recording& r) {
@@ -94,6 +96,7 @@ std::vector<RecordWriter::Part> RecordWriter::partsOf(const Recording& r, bool c
   const Bytes shapes = shapesContent(r, surfaces);
   for (const Surfaces::Data& data : surfaces.all()) add(kSurfaces, "shapes[].data", surfaceContent(data));
   add(kShapes, "shapes", shapes, r.shapes.size());
+  if (!r.softs.empty()) add(kSofts, "softs", softsContent(r), r.bodies.size());
   add(kJoints, "joints", jointsContent(r), r.joints.size());
   return plausible || !compress ? parts : partsOf(r, false);
 }

@@ -14,12 +14,15 @@ function hashOf(text) {
 }
 
 /// The same colour for the same name in every recording.
-export function colorOf(recording, body, light) {
-  const color = new THREE.Color();
-  if (recording.types[body] === 0) return color.setHex(light ? 0xb4bcc6 : 0x727c89);
-  const hash = hashOf(recording.nameOf(body));
-  color.setHex(kPalette[hash % kPalette.length]);
+function colorOfName(name) {
+  const hash = hashOf(name);
+  const color = new THREE.Color(kPalette[hash % kPalette.length]);
   return color.offsetHSL(0, 0, (((hash >>> 8) % 64) / 63 - 0.5) * 0.07);
+}
+
+function colorOf(recording, body, light) {
+  if (recording.types[body] === 0) return new THREE.Color(light ? 0xb4bcc6 : 0x727c89);
+  return colorOfName(recording.nameOf(body));
 }
 
 const kFlip = new THREE.Quaternion(1, 0, 0, 0);
@@ -48,7 +51,8 @@ class Instances {
     this.scales = Float32Array.from(items.flatMap((item) => item.scale));
     this.poses = Float32Array.from(items.flatMap((item) => item.pose));
     this.plain = Uint8Array.from(items, ({pose}) => (pose.slice(0, 6).every((value) => value === 0) ? 1 : 0));
-    const {make, skin, trigger} = items[0];
+    const {make, skin, trigger, ball} = items[0];
+    this.ball = ball;
     this.make = make;
     this.skin = skin;
     this.materials = [kSkins[skin](false), kSkins[skin](true)];
@@ -125,20 +129,21 @@ export class Bodies {
     for (const shape of recording.shapes) {
       if (shape.color !== undefined && !this.own.has(shape.body)) this.own.set(shape.body, new THREE.Color(shape.color));
       for (const part of parts.of(shape)) {
-        const name = shape.trigger ? `${part.mesh} trigger` : part.mesh;
+        const name = part.mesh + (shape.trigger ? ' trigger' : shape.ball ? ' ball' : '');
         if (!items.has(name)) items.set(name, []);
-        items.get(name).push({...part, trigger: shape.trigger, body: shape.body, color: shape.color,
+        items.get(name).push({...part, trigger: shape.trigger, ball: shape.ball, body: shape.body, color: shape.color,
                               pose: partPose(shape, part)});
       }
     }
     this.sets = [...items].map(([name, list]) => new Instances(name, list, recording));
     for (const set of this.sets) this.group.add(set.mesh);
+    this.showBalls(false);
   }
 
   setQuality(most, rich) {
-    const detail = Math.min(most, detailFor(this.recording.shapes.length));
+    const {shapes, solidShapes} = this.recording;
     for (const set of this.sets) {
-      set.setDetail(detail);
+      set.setDetail(Math.min(most, detailFor(set.ball ? shapes.length : solidShapes)));
       set.mesh.material = set.materials[rich ? 1 : 0];
     }
   }
@@ -149,13 +154,27 @@ export class Bodies {
   }
 
   move(poses) {
-    for (const set of this.sets) set.update(poses, 0, set.movers);
+    for (const set of this.sets) {
+      if (set.mesh.visible) set.update(poses, 0, set.movers);
+    }
+  }
+
+  /// The balls on points of soft bodies; `mark` and `move` leave out those that do not show.
+  showBalls(on) {
+    for (const set of this.sets) {
+      if (set.ball) set.mesh.visible = on;
+    }
   }
 
   /// Colours by theme, with the selected and hovered body picked out.
   paint(light, selected, hovered) {
     const {recording} = this;
-    this.colors = recording.names.map((_, body) => colorOf(recording, body, light));
+    this.colors = recording.names.slice(0, recording.solidBodies).map((_, body) => colorOf(recording, body, light));
+    this.softColors = recording.softs.map(
+        ({name, color}) => (color === undefined ? colorOfName(name) : new THREE.Color(color)));
+    recording.softs.forEach(({count}, i) => {
+      for (let k = 0; k < count; ++k) this.colors.push(this.softColors[i]);
+    });
     this.light = light;
     this.mark(selected, hovered);
   }
@@ -167,6 +186,7 @@ export class Bodies {
   mark(selected, hovered) {
     const accent = new THREE.Color(0xff7a1a), white = new THREE.Color(0xffffff), color = new THREE.Color();
     for (const set of this.sets) {
+      if (!set.mesh.visible) continue;
       set.bodies.forEach((body, i) => {
         color.copy(set.colors[i] ?? this.colors[body]);
         if (body === selected) color.lerp(accent, 0.85);

@@ -34,13 +34,20 @@ export function bodyRadii(recording) {
   return radii;
 }
 
+function softBox({first, count}, poses, turn) {
+  const box = new THREE.Box3(), point = new THREE.Vector3();
+  for (let body = first; body < first + count; ++body) box.expandByPoint(point.fromArray(poses, 7 * body).applyQuaternion(turn));
+  return box;
+}
+
 /// Box around what happens, y up. Of many bodies the few that fly far off are left out.
 export function sceneBox(recording, radii, turn) {
   const last = recording.frameCount - 1;
   const frames = [...new Set([0, 0.25, 0.5, 0.75, 1].map((part) => Math.round(part * last)))];
   const poses = new Float32Array(7 * recording.bodyCount);
   let bodies = recording.moving.filter((body) => radii[body] > 0);
-  if (bodies.length === 0) bodies = recording.names.map((_, i) => i).filter((body) => radii[body] > 0);
+  const all = Array.from({length: recording.solidBodies}, (_, body) => body);
+  if (bodies.length + recording.softs.length === 0) bodies = all.filter((body) => radii[body] > 0);
   const lows = [[], [], []], highs = [[], [], []], point = new THREE.Vector3();
   for (const frame of frames) {
     if (!recording.has(frame)) continue;
@@ -52,8 +59,13 @@ export function sceneBox(recording, radii, turn) {
         highs[axis].push(value + radii[body]);
       });
     }
+    for (const soft of recording.softs.filter(({count}) => count > 0)) {
+      const {min, max} = softBox(soft, poses, turn);
+      min.toArray().forEach((value, axis) => lows[axis].push(value));
+      max.toArray().forEach((value, axis) => highs[axis].push(value));
+    }
   }
-  if (bodies.length === 0) return new THREE.Box3(new THREE.Vector3(-2, 0, -2), new THREE.Vector3(2, 2, 2));
+  if (lows[0].length === 0) return new THREE.Box3(new THREE.Vector3(-2, 0, -2), new THREE.Vector3(2, 2, 2));
   const cut = bodies.length > 20 ? 0.01 : 0;
   const at = (list, part) => list.sort((a, b) => a - b)[Math.round(part * (list.length - 1))];
   return new THREE.Box3(new THREE.Vector3(...lows.map((list) => at(list, cut))),

@@ -1,10 +1,11 @@
 // Keys, and the mouse's clicks and hovering; orbiting is three's own.
 
-const kMarks = ['frames', 'limits', 'reactions'];
+const kMarks = ['frames', 'limits', 'reactions', 'strain', 'wire', 'balls'];
 
 export function addKeys(viewer) {
   const {actions} = viewer;
-  const toggles = {c: 'contacts', v: 'forces', j: 'joints', x: 'frames', m: 'limits', b: 'reactions', n: 'names', t: 'theme', p: 'panel', l: 'loop', g: 'follow', e: 'tail'};
+  const toggles = {c: 'contacts', v: 'forces', j: 'joints', x: 'frames', m: 'limits', b: 'reactions', n: 'names', t: 'theme', p: 'panel', l: 'loop', g: 'follow', e: 'tail',
+                   s: 'strain', w: 'wire', o: 'balls'};
   const keys = {
     ' ': () => actions.togglePlay(),
     ArrowLeft: (event) => actions.step(event.shiftKey ? -10 : -1),

@@ -2,6 +2,7 @@
 import {CouplingTable} from './couplings.js';
 import {hasCone, hasFrames, hasLimits, limits} from './joints.js';
 import {Plot} from './plots.js';
+import {SoftTable} from './soft_table.js';
 
 /// An element: attributes by name, `text` for its text, then its children.
 export function make(tag, attributes = {}, ...children) {
@@ -46,6 +47,7 @@ const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 4];
 const kKeys = [
   ['Space', 'play or pause'], ['← →', 'one frame back or on; with Shift ten'], ['Home End', 'first or last frame'],
   ['[ ]', 'slower, faster'], ['C', 'contact points'], ['V', 'force lines'], ['J', 'joints'], ['X', 'frames of joints'],
+  ['S', 'strain of soft bodies'], ['W', 'their meshes'], ['O', 'the balls on their points'],
   ['M', 'limits of joints'], ['B', 'forces of joints on their second bodies'], ['N', 'names'], ['E', 'stay at the end of a run that goes on'],
   ['F', 'look at the selected body'], ['G', 'follow it'], ['Esc', 'select nothing'], ['R', 'reset the view'],
   ['T', 'light or dark'], ['P', 'panel'], ['Left drag', 'orbit'], ['Right drag', 'pan'], ['Wheel', 'zoom'],
@@ -68,9 +70,10 @@ export class Interface {
   factsText() {
     const {recording} = this;
     const still = recording.types.reduce((sum, type) => sum + (type === 0), 0);
-    const moving = recording.bodyCount - still;
+    const moving = recording.solidBodies - still, softs = recording.softs.length;
     const length = recording.times[recording.frameCount - 1] - recording.times[0];
     const facts = [`${moving} moving`, `${still} static`];
+    if (softs > 0) facts.push(`${softs} soft`);
     if (recording.joints.length > 0) facts.push(counted(recording.joints.length, 'joint'));
     facts.push(counted(recording.frameCount, 'frame'), `${Number(length.toFixed(2))} s`);
     return facts.join('  ·  ');
@@ -101,6 +104,11 @@ export class Interface {
     if (hasFrames(this.recording)) chip('frames', 'Frames', 'X', true);
     if (hasLimits(this.recording)) chip('limits', 'Limits', 'M', true);
     if (this.recording.jointStates && this.recording.joints.length > 0) chip('reactions', 'Reactions', 'B', true);
+    if (this.recording.softs.length > 0) {
+      chip('strain', 'Strain', 'S', true);
+      chip('wire', 'Mesh', 'W', true);
+      chip('balls', 'Points', 'O', true);
+    }
     chip('names', 'Names', 'N', this.recording.bodyCount > 0);
     bar.append(make('span', {class: 'gap'}));
     const tool = (name, title, action) => {
@@ -162,8 +170,10 @@ export class Interface {
     this.report = section('Report', make('table', {}, make('tbody')));
     this.showReport();
     this.couplings = new CouplingTable(make, this.recording);
+    this.softs = new SoftTable(make, this.recording);
     this.panel = make('aside', {class: 'panel', 'aria-label': 'Figures'}, section('Body', this.selection),
                       section('Figures', ...this.makePlots()),
+                      this.softs.count > 0 && section('Soft bodies', this.softs.element),
                       this.couplings.count > 0 && section('Couplings and what they miss', this.couplings.element),
                       this.report, this.makeQuality());
     return this.panel;
@@ -226,21 +236,18 @@ export class Interface {
       element.addEventListener('click', action);
       return element;
     };
-    this.facts = {position: make('td'), turn: make('td'), speed: make('td')};
-    const row = (label, cell) => make('tr', {}, make('th', {scope: 'row', text: label}), cell);
+    this.facts = facts.rows.map(() => make('td'));
+    const row = (label, i) => make('tr', {}, make('th', {scope: 'row', text: label}), this.facts[i]);
     this.selection.append(
         make('h3', {}, swatch, make('span', {text: facts.name})), make('p', {class: 'hint', text: facts.type}),
-        make('table', {}, make('tbody', {}, row('position', this.facts.position), row('turned', this.facts.turn),
-                               row('speed', this.facts.speed))),
+        make('table', {}, make('tbody', {}, ...facts.rows.map(row))),
         make('div', {class: 'chips'}, button('Look at', () => this.actions.lookAtSelected()),
              button('Follow', () => this.actions.toggle('follow'), String(facts.follow))));
   }
 
-  updateSelection(position, turn, speed) {
-    if (!this.facts) return;
-    this.facts.position.textContent = position;
-    this.facts.turn.textContent = turn;
-    this.facts.speed.textContent = speed;
+  /// A text for each of the rows.
+  updateSelection(texts) {
+    this.facts?.forEach((cell, i) => { cell.textContent = texts[i]; });
   }
 
   showTime(time, frame) {

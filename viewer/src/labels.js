@@ -18,13 +18,21 @@ export class Labels {
     this.canvas.height = Math.round(height * ratio);
   }
 
+  /// All bodies, and of each soft body one point of its surface.
+  named() {
+    const {solidBodies, softs} = this.recording;
+    const points = softs.filter(({surface}) => surface.length > 0)
+                       .map(({first, surface}) => first + surface[surface.length >> 1]);
+    return [...Array(solidBodies).keys(), ...points];
+  }
+
   /// Bodies to name, the most important first.
   candidates(stage, poses, selected, hovered) {
     const {recording, radii} = this;
     const chosen = [...new Set([selected, hovered])].filter((body) => body >= 0);
     if (!this.all) return chosen;
     const near = [];
-    for (let body = 0; body < recording.bodyCount; ++body) {
+    for (const body of this.named()) {
       if (radii[body] === 0 || chosen.includes(body)) continue;
       const {x, y, z} = stage.project(poses[7 * body], poses[7 * body + 1], poses[7 * body + 2]);
       if (Math.abs(z) < 1 && x > 0 && y > 0 && x < this.width && y < this.height) near.push({body, z});
@@ -51,7 +59,7 @@ export class Labels {
       if (Math.abs(at.z) > 1) continue;
       const strong = body === selected || body === hovered;
       const lift = strong ? this.liftOf(stage, poses, body, radii[body]) : 0;
-      this.drawOne(recording.nameOf(body), at.x, at.y - lift, strong, body === selected, light, taken);
+      this.drawOne(recording.labelOf(body), at.x, at.y - lift, strong, body === selected, light, taken);
     }
   }
 

@@ -53,17 +53,17 @@ export class LiveRecording extends Recording {
   }
 
   takeFrame(buffer) {
-    const [, frame, bodies, contacts, joints, residuals] = new Uint32Array(buffer, 0, 6);
-    let at = 24;
+    const [, frame, bodies, contacts, joints, residuals, points] = new Uint32Array(buffer, 0, 7);
+    let at = 28;
     const part = (count) => {
       const list = new Float32Array(buffer, at, count);
       at += list.byteLength;
       return list;
     };
-    const poses = part(7 * bodies), positions = part(3 * contacts), forces = part(3 * contacts);
+    const poses = part(7 * bodies), places = part(3 * points), positions = part(3 * contacts), forces = part(3 * contacts);
     this.asked.delete(frame);
     const pushed = part(3 * joints);
-    this.frames.set(frame, {poses, positions, forces, reactions: reactionsOf(pushed, part(residuals))});
+    this.frames.set(frame, {poses, places, positions, forces, reactions: reactionsOf(pushed, part(residuals))});
     const most = Math.max(2 * kAhead, Math.floor(kKept / Math.max(1, buffer.byteLength)));
     for (const old of this.frames.keys()) {
       if (this.frames.size <= most) break;
@@ -110,9 +110,14 @@ export class LiveRecording extends Recording {
 
   poses(frame, out, stills) {
     if (stills) this.stillPoses(out);
-    const poses = this.frames.get(frame)?.poses;
-    if (!poses || poses.length === 0) return;  // a frame that cannot be read shows as the one before
+    const {poses, places} = this.frames.get(frame) ?? {};
+    if (!poses || poses.length + places.length === 0) return;  // a frame that cannot be read shows as the one before
     for (const body of this.moving) out.set(poses.subarray(7 * body, 7 * body + 7), 7 * body);
+    for (let i = 0, to = 7 * this.solidBodies; i < places.length; i += 3, to += 7) {
+      out[to] = places[i];
+      out[to + 1] = places[i + 1];
+      out[to + 2] = places[i + 2];
+    }
   }
 
   contacts(frame) {

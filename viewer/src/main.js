@@ -11,19 +11,22 @@ import {pick} from './pick.js';
 import {Player} from './player.js';
 import {withUnit} from './plots.js';
 import {Recording} from './recording.js';
+import {SoftBodies} from './soft.js';
+import {kSoftRows, softTexts} from './soft_table.js';
 import {Stage} from './stage.js';
 import * as THREE from 'three';
 import style from './style.css';
 
 const kRedrawAfter = 100;  // ms
 const kTypes = ['static', 'kinematic', 'dynamic'];
+const kRows = ['position', 'turned', 'speed'];
 
 class Viewer {
   constructor(recording) {
     this.recording = recording;
     this.selected = this.hovered = -1;
     this.on = {contacts: false, forces: false, joints: false, frames: false, limits: false, reactions: false,
-               names: false, panel: window.innerWidth > 760, loop: true,
+               names: false, strain: false, wire: false, balls: false, panel: window.innerWidth > 760, loop: true,
                follow: false, theme: window.matchMedia('(prefers-color-scheme: light)').matches, tail: recording.live === true};
     this.radii = bodyRadii(recording);
     this.motion = new Motion(recording);
@@ -35,8 +38,10 @@ class Viewer {
     this.bodies = new Bodies(recording);
     this.marks = new Marks(recording, this.stage.radius, this.radii);
     this.labels = new Labels(this.interface.overlay, recording, this.radii);
-    this.stage.world.add(this.bodies.group, this.marks.group);
+    this.softs = new SoftBodies(recording);
+    this.stage.world.add(this.bodies.group, this.softs.group, this.marks.group);
     this.bodies.place(this.motion.now);
+    this.softs.update(this.motion.now, false);
     this.player = new Player(this);
     this.actions = actions;
     addKeys(this);
@@ -77,15 +82,24 @@ class Viewer {
     else if (name === 'names') this.labels.all = on;
     else if (name === 'follow') this.showSelection();
     else if (name === 'tail') this.player.setTail(on);
+    else if (name === 'balls') this.showBalls(on);
+    else if (name === 'strain' || name === 'wire') this.softs.show(name, on);
     else if (name !== 'loop') this.marks.show(name, on);
     this.interface.press(name, on);
     this.player.touch(true);
+  }
+
+  showBalls(on) {
+    this.bodies.showBalls(on);
+    this.bodies.mark(this.selected, this.hovered);
   }
 
   applyTheme() {
     document.documentElement.classList.toggle('light', this.on.theme);
     this.stage.setTheme(this.on.theme);
     this.bodies.paint(this.on.theme, this.selected, this.hovered);
+    this.softs.paint(this.bodies.softColors, this.on.theme);
+    this.softs.mark(this.selected, this.hovered);
     for (const plot of this.interface.plots) plot.resize();
   }
 
@@ -108,6 +122,7 @@ class Viewer {
   placeAll() {
     const {motion, recording} = this;
     this.bodies.move(motion.now);
+    this.updateSofts();
     this.stage.placePlanes(motion.now);
     this.marks.update(motion);
     if (this.selected >= 0) this.updateSelection();
@@ -125,6 +140,13 @@ class Viewer {
     if (this.interface.note.textContent !== text) this.interface.note.textContent = text;
   }
 
+  updateSofts() {
+    const {on, softs, recording, interface: page} = this;
+    if (recording.softs.length === 0) return;
+    softs.update(this.motion.now, on.panel);
+    if (on.panel) page.softs.show(softs.surfaces, on.strain ? softs.scale : 0);
+  }
+
   strongestReaction(frame) {
     const {forces} = this.recording.reactions(frame);
     let most = 0;
@@ -137,7 +159,7 @@ class Viewer {
   }
 
   pick(x, y) {
-    return pick(this.recording, this.motion.now, this.radii, this.stage.rayAt(x, y));
+    return pick(this.recording, this.motion.now, this.radii, this.stage.rayAt(x, y), this.softs, this.on.balls);
   }
 
   select(body) {
@@ -145,6 +167,7 @@ class Viewer {
     this.selected = body;
     this.on.follow = false;
     this.bodies.mark(body, this.hovered);
+    this.softs.mark(body, this.hovered);
     this.marks.tracePath(body);
     this.showSelection();
     this.player.touch(true);
@@ -166,13 +189,16 @@ class Viewer {
     this.hovered = body;
     this.interface.view.classList.toggle('over', body >= 0);
     this.bodies.mark(this.selected, body);
+    this.softs.mark(this.selected, body);
     this.player.touch();
   }
 
   showSelection() {
     const {selected, recording} = this;
     if (selected < 0) return this.interface.showSelection(undefined);
-    this.interface.showSelection({name: recording.nameOf(selected), type: kTypes[recording.types[selected]] ?? '',
+    const soft = recording.softOf(selected);
+    const type = soft ? `${soft.cloth ? 'cloth' : 'soft body'}, point ${selected - soft.first}` : kTypes[recording.types[selected]] ?? '';
+    this.interface.showSelection({name: recording.labelOf(selected), type, rows: soft ? kSoftRows : kRows,
                                   color: this.bodies.swatch(selected).getStyle(), follow: this.on.follow});
     return this.updateSelection();
   }
@@ -181,8 +207,14 @@ class Viewer {
     const {motion, recording, selected} = this;
     const k = 7 * selected;
     const position = [0, 1, 2].map((i) => (motion.now[k + i] + recording.origin[i]).toFixed(3)).join('  ');
+    const speed = withUnit(motion.speed(selected), 'm/s'), soft = recording.softOf(selected);
+    if (soft) {
+      const surface = this.softs.surfaces[recording.softs.indexOf(soft)];
+      surface.measure();
+      return this.interface.updateSelection(softTexts(surface, `${position} m`, speed));
+    }
     const angle = (2 * Math.acos(Math.min(1, Math.abs(motion.now[k + 6]))) * 180) / Math.PI;
-    this.interface.updateSelection(`${position} m`, `${angle.toFixed(1)}°`, withUnit(motion.speed(selected), 'm/s'));
+    return this.interface.updateSelection([`${position} m`, `${angle.toFixed(1)}°`, speed]);
   }
 
   pointOf(body) {
@@ -191,7 +223,9 @@ class Viewer {
 
   lookAtSelected() {
     if (this.selected < 0) return;
-    this.stage.lookAt(this.pointOf(this.selected), this.radii[this.selected] || 0.1 * this.stage.radius);
+    const soft = this.recording.softOf(this.selected);
+    const radius = soft ? this.softs.surfaces[this.recording.softs.indexOf(soft)].radius : this.radii[this.selected];
+    this.stage.lookAt(this.pointOf(this.selected), radius || 0.1 * this.stage.radius);
   }
 }
 
@@ -215,9 +249,16 @@ function publish(viewer) {
       const {ropes, wheels, lines} = viewer.marks.couplings, count = (segments) => segments.object.geometry.instanceCount;
       return {ropes: count(ropes), wheels: wheels.object.geometry.drawRange.count, lines: count(lines)};
     },
+    /// Soft bodies: how they are drawn, and what is measured of them.
+    softs: () => viewer.softs.surfaces.map((surface) => ({
+      name: surface.soft.name, cloth: surface.soft.cloth, first: surface.soft.first, points: surface.soft.count,
+      triangles: surface.indices.length / 3, vertices: surface.vertexPoint.length, lines: surface.wire?.visible === true,
+      colored: surface.mesh.material.vertexColors, largest: surface.measure(), volume: surface.volume(),
+      restVolume: surface.restVolume})),
+    get strainScale() { return viewer.softs.scale; },
     plots: () => viewer.interface.plots.map(({name, high}) => ({name, high})),
     meshes: () => viewer.bodies.sets.map(({mesh, bodies}) => ({
-      name: mesh.name, count: bodies.length, triangles: (mesh.geometry.index ?? mesh.geometry.attributes.position).count / 3,
+      name: mesh.name, visible: mesh.visible, count: bodies.length, triangles: (mesh.geometry.index ?? mesh.geometry.attributes.position).count / 3,
       transparent: mesh.material.transparent})),
     get time() { return player.time; },
     get frame() { return viewer.motion.frame; },
@@ -233,7 +274,7 @@ function publish(viewer) {
     setQuality: (value) => player.setQuality(value),
     lookAtSelected: () => viewer.lookAtSelected(),
     showBodies: (on) => {
-      viewer.bodies.group.visible = on;
+      viewer.bodies.group.visible = viewer.softs.group.visible = on;
       player.touch(true);
     },
     poseOf: (body) => Array.from(viewer.motion.now.subarray(7 * body, 7 * body + 7)),

@@ -59,6 +59,14 @@ export function plain(rich) {
   return material;
 }
 
+/// Surfaces of soft bodies, cloth from both sides. Pushed back a little, so that lines on them show. Both sides throw
+/// shadows: light must not come in where a back lies on another body.
+export function yielding(rich, cloth) {
+  const material = surface(rich, 0.72);
+  if (cloth) material.side = THREE.DoubleSide;
+  return Object.assign(material, {shadowSide: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1});
+}
+
 /// Ground: lines every `cell` and, stronger, every ten, which thin out with distance.
 export function ground() {
   const material = new THREE.MeshLambertMaterial();

@@ -49,6 +49,11 @@ export class Motion {
       now[k + 5] = z * scale;
       now[k + 6] = w * scale;
     }
+    for (let k = 7 * this.recording.solidBodies; k < now.length; k += 7) {  // points of soft bodies do not turn
+      now[k] = rest * before[k] + part * after[k];
+      now[k + 1] = rest * before[k + 1] + part * after[k + 1];
+      now[k + 2] = rest * before[k + 2] + part * after[k + 2];
+    }
   }
 
   /// Mean speed between the two frames around now.

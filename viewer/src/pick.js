@@ -2,6 +2,8 @@
 
 /// A surface of more corners of triangles than this is not searched while the mouse moves.
 const kMostCorners = 600000;
+/// Of a triangle's size: a ray must not slip between two that share an edge.
+const kRim = 1e-5;
 
 /// v turned by the inverse of the quaternion at q[k..k+3], x y z w.
 function turnedBack(q, k, vx, vy, vz, out) {
@@ -62,7 +64,7 @@ function meetTurned(o, d, low, high, half) {
 }
 
 /// Möller and Trumbore, "Fast, minimum storage ray-triangle intersection", 1997; from both sides.
-function meetTriangle(o, d, p, i, j, k) {
+export function meetTriangle(o, d, p, i, j, k) {
   const ax = p[3 * i], ay = p[3 * i + 1], az = p[3 * i + 2];
   const ux = p[3 * j] - ax, uy = p[3 * j + 1] - ay, uz = p[3 * j + 2] - az;
   const vx = p[3 * k] - ax, vy = p[3 * k + 1] - ay, vz = p[3 * k + 2] - az;
@@ -70,10 +72,10 @@ function meetTriangle(o, d, p, i, j, k) {
   const det = ux * hx + uy * hy + uz * hz;
   const sx = o[0] - ax, sy = o[1] - ay, sz = o[2] - az;
   const u = (sx * hx + sy * hy + sz * hz) / det;
-  if (!(u >= 0 && u <= 1)) return Infinity;
+  if (!(u >= -kRim && u <= 1 + kRim)) return Infinity;
   const qx = sy * uz - sz * uy, qy = sz * ux - sx * uz, qz = sx * uy - sy * ux;
   const v = (d[0] * qx + d[1] * qy + d[2] * qz) / det;
-  if (!(v >= 0 && u + v <= 1)) return Infinity;
+  if (!(v >= -kRim && u + v <= 1 + kRim)) return Infinity;
   return (vx * qx + vy * qy + vz * qz) / det;
 }
 
@@ -107,13 +109,14 @@ function meet(shape, surfaces, o, d) {
   return d[1] < 0 ? -o[1] / d[1] : Infinity;
 }
 
-/// Index of the body, or -1. A half-space hides what is behind it and is itself never picked.
-export function pick(recording, poses, radii, ray) {
+/// Index of the body, or -1. A half-space hides what is behind it and is itself never picked. `softs` are met as
+/// surfaces, by the nearest of their points, and by their balls where those show.
+export function pick(recording, poses, radii, ray, softs, balls) {
   const {origin, direction} = ray;
   const o = [0, 0, 0], d = [0, 0, 0], o2 = [0, 0, 0], d2 = [0, 0, 0];
   let best = Infinity, found = -1;
   for (const shape of recording.shapes) {
-    if (shape.trigger) continue;  // one wants what is in it
+    if (shape.trigger || (shape.ball && !balls)) continue;  // of triggers one wants what is in it
     const k = 7 * shape.body;
     const rx = origin.x - poses[k], ry = origin.y - poses[k + 1], rz = origin.z - poses[k + 2];
     if (shape.kind !== 'plane') {
@@ -131,5 +134,6 @@ export function pick(recording, poses, radii, ray) {
       found = shape.kind === 'plane' ? -1 : shape.body;
     }
   }
-  return found;
+  const soft = softs.meet(origin.toArray(), direction.toArray());
+  return soft.distance < best ? soft.body : found;
 }

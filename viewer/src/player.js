@@ -74,6 +74,7 @@ export class Player {
   apply(level) {
     this.viewer.stage.setQuality(level);
     this.viewer.bodies.setQuality(kQualities[level].detail, kQualities[level].rich);
+    this.viewer.softs.setQuality(kQualities[level].rich);
     this.viewer.marks.setPixelRatio(this.viewer.stage.renderer.getPixelRatio());
     this.streak = 0;
     this.touch(true);

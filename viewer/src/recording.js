@@ -3,6 +3,7 @@ import {gridSurface} from './shapes.js';
 import * as THREE from 'three';
 
 const kPoseBytes = 15;
+const kPlaceBytes = 9;
 const kContactBytes = 13;
 const kJointBytes = 4;
 const kResidualBytes = 4;
@@ -12,6 +13,15 @@ export const kFigures = ['energy', 'penetration', 'gap', 'excess', 'excessAngle'
 export const kKinds =
     ['sphere', 'capsule', 'box', 'plane', 'cylinder', 'cone', 'ellipsoid', 'hull', 'mesh', 'field'];
 export const kWorld = 0xffffffff;
+const kDynamic = 2;
+const kNoTrack = 0x7fffffff;  // of points, which move, but have none of the tracks
+
+function joined(a, b) {
+  const out = new a.constructor(a.length + b.length);
+  out.set(a);
+  out.set(b, a.length);
+  return out;
+}
 
 function bytesOf(base64) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
@@ -65,7 +75,12 @@ export class Recording {
     this.ranges = numbers(Float64Array, head.ranges);
     this.contactRange = numbers(Float64Array, head.contactRange);
     this.surfaces = head.surfaces.map((surface) => this.readSurface(surface));
+    this.moving = [];  // of those that are no points of soft bodies
+    this.tracks.forEach((track, body) => track >= 0 && this.moving.push(body));
     this.shapes = this.readShapes(head);
+    this.solidBodies = this.names.length;
+    this.solidShapes = this.shapes.length;
+    this.softs = (head.softs ?? []).map((soft) => this.readSoft(soft));
     this.joints = this.readJoints(head);
     this.jointStates = head.jointStates ? numbers(Uint8Array, head.jointStates)[0] === 1 : this.joints.length > 0;
     for (const name of kFigures) this[name] = numbers(Float32Array, head[name]);
@@ -74,8 +89,28 @@ export class Recording {
     this.contactsKept = numbers(Uint32Array, head.contactsKept);
     this.bodyCount = this.names.length;
     this.frameCount = this.times.length;
-    this.moving = [];
-    this.tracks.forEach((track, body) => track >= 0 && this.moving.push(body));
+  }
+
+  /// Its points become bodies behind all others, with a ball on each corner of the surface.
+  readSoft(head) {
+    const points = numbers(Float32Array, head.points), surface = numbers(Uint32Array, head.surface);
+    const soft = {name: head.name, cloth: head.cloth, elements: head.elements, points, surface, first: this.names.length,
+                  count: points.length / 3, range: head.range && numbers(Float64Array, head.range),
+                  color: head.color && (head.color[0] << 16) | (head.color[1] << 8) | head.color[2]};
+    const radius = Math.max(0, numbers(Float32Array, head.radius)[0]) || 0;
+    for (let i = 0; i < soft.count; ++i) this.names.push(`${soft.name}_${i}`);
+    this.types = joined(this.types, new Uint8Array(soft.count).fill(kDynamic));
+    this.tracks = joined(this.tracks, new Int32Array(soft.count).fill(kNoTrack));
+    for (const point of new Set(surface)) {
+      this.shapes.push({body: soft.first + point, kind: 'sphere', size: [radius, 0, 0, 0], surface: -1, trigger: false,
+                        color: soft.color, position: [0, 0, 0], rotation: [0, 0, 0, 1], ball: true});
+    }
+    return soft;
+  }
+
+  /// The soft body that a body is a point of.
+  softOf(body) {
+    return body < this.solidBodies ? undefined : this.softs.find(({first, count}) => body >= first && body < first + count);
   }
 
   readShapes(head) {
@@ -176,9 +211,13 @@ export class Recording {
   }
 
   /// Of a frame's bytes.
+  jointsFrom() {
+    return kPoseBytes * this.moving.length + kPlaceBytes * (this.bodyCount - this.solidBodies);
+  }
+
   contactsFrom() {
     const jointBytes = kJointBytes * this.joints.length + kResidualBytes * this.residualCount;
-    return kPoseBytes * this.moving.length + (this.jointStates ? jointBytes : 0);
+    return this.jointsFrom() + (this.jointStates ? jointBytes : 0);
   }
 
   /// Whether poses and contacts of a frame are here.
@@ -210,11 +249,27 @@ export class Recording {
       const high = bytes[p + 12] | (bytes[p + 13] << 8) | (bytes[p + 14] << 16);
       unpackRotation(low, high, out, at + 3);
     }
+    let p = offset + kPoseBytes * moving.length;
+    for (const soft of this.softs) p = this.readPlaces(soft, bytes, p, out);
   }
 
+  /// Returns where the next soft body's begin.
+  readPlaces({first, count, range}, bytes, from, out) {
+    const [x, dx, y, dy, z, dz] = range, [ox, oy, oz] = this.origin;
+    let p = from;
+    for (let at = 7 * first, end = 7 * (first + count); at < end; at += 7, p += kPlaceBytes) {
+      out[at] = x - ox + (bytes[p] | (bytes[p + 1] << 8) | (bytes[p + 2] << 16)) * dx;
+      out[at + 1] = y - oy + (bytes[p + 3] | (bytes[p + 4] << 8) | (bytes[p + 5] << 16)) * dy;
+      out[at + 2] = z - oz + (bytes[p + 6] | (bytes[p + 7] << 8) | (bytes[p + 8] << 16)) * dz;
+    }
+    return p;
+  }
+
+  /// Of what never moves; points, too, never turn.
   stillPoses(out) {
     let from = 0;
-    for (let body = 0; body < this.bodyCount; ++body) {
+    for (let body = this.solidBodies; body < this.bodyCount; ++body) out[7 * body + 6] = 1;
+    for (let body = 0; body < this.solidBodies; ++body) {
       if (this.tracks[body] >= 0) continue;
       const [x, y, z, qw, qx, qy, qz] = this.still.subarray(from, from + 7);
       const length = Math.hypot(qw, qx, qy, qz);
@@ -245,7 +300,7 @@ export class Recording {
   reactions(frame) {
     if (!this.jointStates) return kNoReactions;
     const {bytes, offset} = this.places[frame];
-    const forces = new Float32Array(3 * this.joints.length), from = offset + kPoseBytes * this.moving.length;
+    const forces = new Float32Array(3 * this.joints.length), from = offset + this.jointsFrom();
     this.joints.forEach((_, i) => unpackForce(bytes, from + kJointBytes * i, forces, 3 * i));
     const off = (i) => bytes[from + kJointBytes * i + 2] === 255 && bytes[from + kJointBytes * i + 3] === 255;
     const view = new DataView(bytes.buffer, bytes.byteOffset + from + kJointBytes * this.joints.length);
@@ -269,5 +324,10 @@ export class Recording {
 
   nameOf(body) {
     return this.names[body] || `body ${body}`;
+  }
+
+  /// Of a point the name of its soft body.
+  labelOf(body) {
+    return this.softOf(body)?.name ?? this.nameOf(body);
   }
 }

@@ -74,7 +74,7 @@ export class Stage {
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
     this.controls.zoomToCursor = true;
-    this.bodyCount = recording.bodyCount;
+    this.bodyCount = recording.solidBodies + recording.softs.length;
     this.addLights();
     this.sky = makeSky();
     this.scene.add(this.sky);
