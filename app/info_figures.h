@@ -43,8 +43,9 @@ struct ModelInfo {
   size_t coloredShapes = 0;                                       ///< those that the file gives a colour
   size_t hullVertices = 0, meshTriangles = 0, heightSamples = 0;  ///< of all shapes; shared ones once for each
   std::array<size_t, kJointKinds> joints{};
-  double mass = 0;  ///< [kg] of all dynamic bodies
-  Bounds bounds;    ///< of all shapes but half-spaces, at the start [m]
+  size_t softBodies = 0, particles = 0, tetrahedra = 0, triangles = 0;  ///< triangles: of cloth
+  double mass = 0;                                                      ///< [kg] of all dynamic bodies
+  Bounds bounds;  ///< of all shapes but half-spaces, at the start [m]
   double dt = 0;
   Vec3 gravity, up;
   std::vector<std::string> keyframes, notes;
