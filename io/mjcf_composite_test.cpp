@@ -52,6 +52,15 @@ TEST(MjcfComposite, AGridIsClothThatPinsHold) {
   EXPECT_NEAR(placeOf(model, "PB2_3").z, 1 - 0.3, 0.08);  // it sags between the pins
 }
 
+TEST(MjcfComposite, WithoutEqualitiesTendonsAreSprings) {
+  const Model model = readMjcfText(
+      "<mujoco><option><flag equality='disable'/></option><worldbody><composite type='grid' count='3 3' spacing='.1'>"
+      "<tendon kind='main' stiffness='50'/><geom size='.02'/></composite></worldbody></mujoco>",
+      "t.xml");
+  const SoftMaterial material = model.world.material(model.world.softBodies().at(0));
+  EXPECT_NEAR(material.youngsModulus * material.thickness, 50, 1e-3);
+}
+
 TEST(MjcfComposite, AGridOfOneDimensionIsARope) {
   Model model = readWorld("<composite type='grid' count='6 1 1' spacing='.1'><pin coord='0'/>" + kBall);
   EXPECT_TRUE(model.world.softBodies().empty());

@@ -44,11 +44,12 @@ struct Composite {
   std::string where, prefix;
   Kind kind = Kind::Particle;
   std::array<int, 3> count{1, 1, 1};
-  size_t dim = 0;      ///< counts above 1
-  double spacing = 0;  ///< [m]
-  Vec3d offset{};      ///< in the parent body's frame
-  Geom geom{};         ///< of each element
-  Joint joint{};       ///< what its main joints have in common
+  size_t dim = 0;              ///< counts above 1
+  double spacing = 0;          ///< [m]
+  Vec3d offset{};              ///< in the parent body's frame
+  Geom geom{};                 ///< of each element
+  Joint joint{};               ///< what its main joints have in common
+  double tendonStiffness = 0;  ///< [N/m]
   std::optional<Attributes> geomAttributes{};
 };
 

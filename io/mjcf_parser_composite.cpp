@@ -69,7 +69,9 @@ void Parser::readCompositeParts(Composite& c) {
   c.joint.kind = c.kind == Kind::Cable ? JointKind::Ball : c.kind < Kind::Cable ? JointKind::Slide : JointKind::Hinge;
   for (const Elem child : source_.children(c.elem)) {
     if (child.name() == "joint") readCompositeJoint(child, c);
-    if (child.name() == "tendon") own(child, "compositetendon");
+    if (child.name() == "tendon") {
+      c.tendonStiffness = std::max(c.tendonStiffness, notNegative(own(child, "compositetendon"), "stiffness"));
+    }
     if (child.name() != "geom") continue;
     if (c.geomAttributes) source_.fail(child, "a composite can have one geom only");
     c.geomAttributes.emplace(own(child, "compositegeom"));
@@ -215,7 +217,12 @@ void Parser::addCloth(Composite& c, const OpenElem& in) {
 void Parser::joinGrid(const Composite& c, Flex flex) {
   flex.where = c.where;
   flex.radius = inside(c.geom);
-  flex.holdsEdges = !off_.equalities;
+  // A cloth's joints hold it together, a grid's tendons by equalities. Edges of stiffness k are a sheet of E h = k.
+  flex.holdsEdges = !off_.equalities || c.kind == Kind::Cloth;
+  if (!flex.holdsEdges) {
+    flex.edgeStiffness = c.tendonStiffness;
+    flex.young = c.tendonStiffness / (2 * flex.radius);
+  }
   flex.surface = c.geom;
   if (c.geom.kind != GeomKind::Sphere)
     notes_.add(c.geom.where, "its points touch as balls within the geom", "composite");

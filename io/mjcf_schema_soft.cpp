@@ -115,7 +115,7 @@ constexpr AttributeRule kSoftRules[] = {
     {"compositetendon", "kind", 0, 0, S},
     {"compositetendon", "solreffix", 1, 2, N},
     {"compositetendon", "solimpfix", 1, 5, N},
-    {"compositetendon", "stiffness", 1, 1, Z},
+    {"compositetendon", "stiffness", 1, 1, R},
     {"compositetendon", "damping", 1, 1, Z},
     {"compositepin", "coord", 1, 2, R},
 };
