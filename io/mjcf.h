@@ -24,13 +24,12 @@
 // holds are so stiff that a cloth or solid stretches about 0.1 % by its weight. flexcomp numbers and places points as
 // MuJoCo does; a mesh without elements of its own is a shell, or tetrahedra about `origin`. Composites of type rope,
 // loop and cable are the bodies and joints that MuJoCo makes of them, particle free points, grid and cloth a cloth.
-// Left out of flexes with a note: files of GMSH, nodes and dofs between them (each point moves by itself), damping of
-// edges and of the material, touching itself. At most 100000 points.
-// Sensors left out with a note: forces of limits, ranges of balls, of tendons around geoms or over pulleys, of left-out
-// actuators, of cameras, distances of geoms, user, plugin, energies, contact, tactile, insidesite; axes of inertia
-// (objtype body) that the file does not tell: of several geoms, a mesh or a fullinertia. noise is not used. A
-// rangefinder sees what can collide.
-// Anything unknown is noted; anything wrong is refused with its place in the file.
+// Left out of flexes with a note: binary files of GMSH, nodes and dofs between them (each point moves by itself),
+// damping of edges and of the material, touching itself. At most 100000 points. Sensors left out with a note: forces of
+// limits, ranges of balls, of tendons around geoms or over pulleys, of left-out actuators, of cameras, distances of
+// geoms, user, plugin, energies, contact, tactile, insidesite; axes of inertia (objtype body) that the file does not
+// tell: of several geoms, a mesh or a fullinertia. noise is not used. A rangefinder sees what can collide. Anything
+// unknown is noted; anything wrong is refused with its place in the file.
 #pragma once
 
 #include <filesystem>

@@ -247,7 +247,6 @@ TEST(MjcfFlex, WhatIsLeftOutIsNoted) {
     const Model model = readWorld("<flexcomp name='F' " + flexcomp);
     EXPECT_TRUE(hasNote(model, part)) << flexcomp << " lacks " << part;
   };
-  noted("type='gmsh' file='x.msh'/>", "left out: type gmsh");
   noted("type='box' dim='1'/>", "left out: a flexcomp of type box or mesh with dim 1");
   noted("dof='trilinear' dim='3'/>", "dof trilinear: each point moves by itself");
   noted("dim='3'><elasticity young='1' damping='.1'/></flexcomp>", "attribute damping is not used");
@@ -298,6 +297,7 @@ const Refused kFlexcomps[] = {
      "at least one that has volume"},
     {"name='F' type='direct' point='0 0 0 1 0 0 0 1 0 0 0 1 1 1 1' element='0 1 2 0 1 3 0 1 4'/>", "edge"},
     {"name='F' type='mesh'/>", "file is missing: must be given"},
+    {"name='F' type='gmsh'/>", "file is missing: must be given"},
     {"name='F' type='mesh' file='a.obj'/>", "file = \"a.obj\": text that is not a file"},
     {"name='F'><pin id='100'/></flexcomp>", "id = \"100\": each must be a whole number 0 .. 99"},
     {"name='F'><pin id='-1'/></flexcomp>", "id = \"-1\": each must be a whole number"},

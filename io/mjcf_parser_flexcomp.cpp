@@ -1,7 +1,9 @@
 // MJCF flexcomp: a flex with a body for each of its points.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
+#include "io/gmsh_file.h"
 #include "io/mesh_file_parts.h"
 #include "io/mjcf_parser.h"
 #include "io/mjcf_schema.h"
@@ -101,14 +103,45 @@ FlexShape Parser::meshShape(const Attributes& a, int dim) {
   return solidAbout(vector(a, "origin", {}), out);
 }
 
-FlexShape Parser::flexcompShape(const Attributes& a, const FlexPattern& pattern) {
+// Nothing where the file is of a kind that is not read, with a note.
+std::optional<FlexShape> Parser::gmshShape(const Attributes& a) {
+  a.requiredText("file");
+  const std::filesystem::path path = assetPath(a);
+  std::string bytes(std::filesystem::file_size(path), '\0');
+  std::ifstream(path, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  const std::string where = source_.where(a.elem());
+  try {
+    const GmshFile file = readGmsh(bytes, path.string());
+    if (!file.leftOut.empty()) {
+      notes_.add(where, "left out: GMSH files are read as text of version 2.2 or 4.1, this is " + file.leftOut,
+                 "flexcomp");
+      return {};
+    }
+    chargePoints(a, "file", static_cast<double>(file.points.size()));
+    FlexShape out{file.dim, {}, file.elements};
+    for (const Vec3 p : file.points) out.points.push_back(toDouble(p));
+    return out;
+  } catch (const FileError& error) {
+    throw FileError(where + ": " + error.what(), error.file(), error.line());
+  }
+}
+
+std::optional<FlexShape> Parser::flexcompShape(const Attributes& a, const FlexPattern& pattern) {
+  const bool wire = pattern.dim == 1 && (isBox(pattern.kind) || pattern.kind == FlexKind::Mesh);
+  if (wire) {
+    notes_.add(source_.where(a.elem()), "left out: a flexcomp of type box or mesh with dim 1", "flexcomp");
+    return {};
+  }
   if (pattern.kind < FlexKind::Mesh) {
     chargePoints(a, "count", pointCount(pattern));
     return flexShape(pattern);
   }
-  FlexShape out = pattern.kind == FlexKind::Direct ? directShape(a, pattern.dim) : meshShape(a, pattern.dim);
+  std::optional<FlexShape> out = pattern.kind == FlexKind::Direct ? directShape(a, pattern.dim)
+                                 : pattern.kind == FlexKind::Gmsh ? gmshShape(a)
+                                                                  : meshShape(a, pattern.dim);
+  if (!out) return out;
   const Vec3d scale = vector(a, "scale", {1, 1, 1});
-  for (Vec3d& p : out.points) {
+  for (Vec3d& p : out->points) {
     p = {p.x * scale.x, p.y * scale.y, p.z * scale.z};
     if (!(length(p) <= 1e6)) a.fail("scale", "must keep all points within 1e6");
   }
@@ -189,19 +222,18 @@ void Parser::readFlexcomp(Elem elem, const OpenElem& in) {
   const Dof dof = static_cast<Dof>(a.keyword("dof", {"full", "radial", "trilinear", "quadratic", "2d"}, 0));
   if (kind == FlexKind::Disc || kind == FlexKind::Square) flex.dim = 2;
   if (kind == FlexKind::Circle) flex.dim = 1;
-  const bool wire = flex.dim == 1 && (isBox(kind) || kind == FlexKind::Mesh);
-  if (kind == FlexKind::Gmsh || wire) {
-    notes_.add(flex.where, wire ? "left out: a flexcomp of type box or mesh with dim 1" : "left out: type gmsh",
-               "flexcomp");
-    out_.bodies[static_cast<size_t>(in.body)].partsLeftOut = true;
-    coordinatesMissing_ = true;
-    return;
-  }
   const double mass = a.number("mass", 1), side = a.number("inertiabox", 0.005);
   if (!(mass > 0)) a.fail("mass", "must be finite and > 0");
   if (!(side > 0)) a.fail("inertiabox", "must be finite and > 0");
   const FlexPattern pattern = flexPattern(a, kind, flex.dim, flex.radius);
-  FlexShape shape = flexcompShape(a, pattern);
+  std::optional<FlexShape> made = flexcompShape(a, pattern);
+  if (!made) {
+    out_.bodies[static_cast<size_t>(in.body)].partsLeftOut = true;
+    coordinatesMissing_ = true;
+    return;
+  }
+  FlexShape& shape = *made;
+  flex.dim = shape.dim;
   std::vector<bool> pinned = flexPins(elem, pattern, shape.points.size());
   if (a.flag("rigid", false)) pinned.assign(pinned.size(), true);
   const std::vector<uint32_t> kept = dropUnused(shape);
