@@ -108,6 +108,20 @@ TEST(InfoCommand, JointsAndActuators) {
   EXPECT_EQ(json["actuators"][1]["max_force"], 90);
 }
 
+TEST(InfoCommand, SoftBodies) {
+  const TestFolder folder;
+  const std::string file = folder.write("s.xml",
+                                        "<mujoco><worldbody><flexcomp name='a' dim='3' count='2 2 3'/><flexcomp "
+                                        "name='b' count='3 3 1'/></worldbody></mujoco>");
+  EXPECT_NE(invoke({"info", file}).out.find("2: 21 particles, 12 tetrahedra, 8 triangles of cloth"), std::string::npos);
+  const Json json = Json::parse(invoke({"info", file, "--json"}).out);
+  EXPECT_EQ(json["soft_bodies"].size(), 2u);
+  EXPECT_EQ(json["soft_bodies"][0]["name"], "a");
+  EXPECT_EQ(json["particles"], 21);
+  EXPECT_EQ(json["tetrahedra"], 12);
+  EXPECT_EQ(json["cloth_triangles"], 8);
+}
+
 TEST(InfoCommand, AWorldOfNothingButAPlaneHasNoBounds) {
   const TestFolder folder;
   const std::string file =

@@ -218,6 +218,12 @@ ModelInfo infoOf(const Model& model) {
       include(info.bounds, geometry, world.pose(body) * world.localPose(shape));
     }
   }
+  for (const SoftId soft : world.softBodies()) {
+    ++info.softBodies;
+    info.particles += world.mesh(soft)->points().size();
+    info.tetrahedra += world.mesh(soft)->tets().size();
+    info.triangles += world.mesh(soft)->triangles().size();
+  }
   for (const JointId joint : world.joints()) ++info.joints[static_cast<size_t>(world.type(joint))];
   for (const NamedJoint& joint : model.joints) info.coordinates.push_back(infoOf(world, joint));
   info.softs = softFiguresOf(model);
@@ -237,11 +243,16 @@ ReportLines reportLines(const ModelInfo& info) {
                      std::to_string(info.fixed) + " static"},
       {"shapes", countsText(info.shapes, shapeKindName)},
   };
-  for (const SoftFigures& soft : info.softs) lines.emplace_back("soft body", softText(soft));
   if (info.coloredShapes > 0) lines.emplace_back("coloured", std::to_string(info.coloredShapes) + " shapes");
   if (info.hullVertices > 0) lines.emplace_back("hull vertices", std::to_string(info.hullVertices));
   if (info.meshTriangles > 0) lines.emplace_back("mesh triangles", std::to_string(info.meshTriangles));
   if (info.heightSamples > 0) lines.emplace_back("heights", std::to_string(info.heightSamples));
+  if (info.softBodies > 0) {
+    lines.emplace_back("soft bodies", std::to_string(info.softBodies) + ": " + std::to_string(info.particles) +
+                                          " particles, " + std::to_string(info.tetrahedra) + " tetrahedra, " +
+                                          std::to_string(info.triangles) + " triangles of cloth");
+  }
+  for (const SoftFigures& soft : info.softs) lines.emplace_back("soft body", softText(soft));
   lines.emplace_back("joints", countsText(info.joints, jointKindName));
   lines.emplace_back("mass", digits(info.mass, 6) + " kg (of the dynamic bodies)");
   lines.emplace_back("bounds", boundsText(info.bounds));

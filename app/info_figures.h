@@ -44,8 +44,9 @@ struct ModelInfo {
   size_t hullVertices = 0, meshTriangles = 0, heightSamples = 0;  ///< of all shapes; shared ones once for each
   std::array<size_t, kJointKinds> joints{};
   std::vector<SoftFigures> softs;
-  double mass = 0;  ///< [kg] of all dynamic bodies
-  Bounds bounds;    ///< of all shapes but half-spaces, at the start [m]
+  size_t softBodies = 0, particles = 0, tetrahedra = 0, triangles = 0;  ///< triangles: of cloth
+  double mass = 0;                                                      ///< [kg] of all dynamic bodies
+  Bounds bounds;  ///< of all shapes but half-spaces, at the start [m]
   double dt = 0;
   Vec3 gravity, up;
   std::vector<std::string> keyframes, notes;

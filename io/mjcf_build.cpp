@@ -54,25 +54,32 @@ void Builder::noteWelds() {
   }
 }
 
+// Surface and filter of a geom.
+ShapeDef Builder::shapeLike(const Geom& geom) const {
+  const auto f = [&](double v) { return mjcf::narrow(v, geom.where); };
+  ShapeDef shape;
+  shape.material.friction = geom.condim == 1 ? 0 : f(geom.friction);
+  if (geom.condim >= 4) shape.material.torsionalFriction = f(geom.torsional);
+  if (geom.condim == 6) shape.material.rollingFriction = f(geom.rolling);
+  shape.material.frictionCombine = Combine::Maximum;
+  shape.material.frictionPriority = geom.priority;
+  shape.filter.category = in_.contactsOff ? 0 : static_cast<uint32_t>(geom.contype);
+  shape.filter.mask = in_.contactsOff ? 0 : static_cast<uint32_t>(geom.conaffinity);
+  shape.filter.anyMask = true;
+  return shape;
+}
+
 void Builder::addShapes(size_t index) {
   const Body& body = in_.bodies[index];
   for (const Geom& geom : body.geoms) {
     const auto f = [&](double v) { return mjcf::narrow(v, geom.where); };
     const std::optional<GeomShape> made = shapes_.shape(geom);
     if (!made) continue;
-    ShapeDef shape;
+    ShapeDef shape = shapeLike(geom);
     shape.geometry = made->geometry;
     Posed pose = inRoot(index) * geom.pose;
     pose.rotation = normalized(pose.rotation * made->turn);
     shape.pose = toPose(pose);
-    shape.material.friction = geom.condim == 1 ? 0 : f(geom.friction);
-    if (geom.condim >= 4) shape.material.torsionalFriction = f(geom.torsional);
-    if (geom.condim == 6) shape.material.rollingFriction = f(geom.rolling);
-    shape.material.frictionCombine = Combine::Maximum;
-    shape.material.frictionPriority = geom.priority;
-    shape.filter.category = in_.contactsOff ? 0 : static_cast<uint32_t>(geom.contype);
-    shape.filter.mask = in_.contactsOff ? 0 : static_cast<uint32_t>(geom.conaffinity);
-    shape.filter.anyMask = true;
     if (const auto it = pairGroups_.find({static_cast<int>(index), static_cast<size_t>(&geom - body.geoms.data())});
         it != pairGroups_.end()) {
       shape.filter.group = it->second.group;
@@ -117,6 +124,7 @@ void Builder::gather() {
   between_.resize(in_.bodies.size());
   pairGroups_ = pairGroups(in_, notes_);
   for (size_t i = 0; i < in_.bodies.size(); ++i) addShapes(i);
+  addRigidFlexes();
   for (size_t i = 1; i < in_.bodies.size(); ++i) {
     if (rootOf(i) != i) {
       if (isDynamic(rootOf(i)) && in_.bodies[i].gravcomp != in_.bodies[rootOf(i)].gravcomp) {
@@ -203,12 +211,14 @@ void Builder::addBetween(size_t root) {
 Model Builder::build() {
   masses_.resize(in_.bodies.size());
   stopWithoutMass();
+  planFlexes();
   noteWelds();
   gather();
   ids_.resize(in_.bodies.size());
   for (size_t i = 0; i < in_.bodies.size(); ++i) {
-    if (rootOf(i) == i) addBody(i);
+    if (rootOf(i) == i && !isParticle(i)) addBody(i);
   }
+  addFlexes();
   coordinates_.resize(in_.bodies.size());
   for (size_t i = 1; i < in_.bodies.size(); ++i) {
     if (linkOf(i) == Link::Jointed) addJoints(i);

@@ -13,7 +13,7 @@ namespace avbd::mjcf {
 
 /// What becomes of each body of a description.
 struct Clusters {
-  enum class Link : uint8_t { Static, Mocap, Free, Jointed };
+  enum class Link : uint8_t { Static, Mocap, Free, Jointed, Particle };
   std::vector<int> rootOf;   ///< by body: the body whose frame it is part of; its own index for a root
   std::vector<Link> linkOf;  ///< by body, meaningful for roots
 };

@@ -100,7 +100,8 @@ void Builder::addProbeTree() {
     const std::vector<ShapeId> shapes = model_.world.shapes(ids_[root]);
     for (size_t k = 0; k < shapes.size(); ++k) {
       const Geom* geom = geoms_[root][k];
-      ProbeBody& of = tree.bodies[bodyOf.at(geom)];
+      const auto found = bodyOf.find(geom);  // none where a flex has it
+      ProbeBody& of = tree.bodies[found == bodyOf.end() ? root : found->second];
       of.shapes.push_back(shapes[k]);
       if (geom->color && geom->color->alpha == 0) of.unseen.push_back(shapes[k]);
     }

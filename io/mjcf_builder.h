@@ -48,6 +48,7 @@ class Builder {
   void noteWelds();
   void gather();
   void stopWithoutMass();
+  ShapeDef shapeLike(const Geom& geom) const;
   void addShapes(size_t body);
   void setMoving(BodyDef& def, size_t root, const Mass& mass, const Placed& placed) const;
   void splitMasses(size_t root);
@@ -83,6 +84,36 @@ class Builder {
   void addExclude(const Exclude& exclude);
   void keep(const Equality& equality, JointId joint);
 
+  // mjcf_build_flex.cpp: what stretches between bodies
+  void planFlexes();
+  void takePoints(size_t root);
+  void addRigidFlexes();
+  void addFlexes();
+  void addSoft(size_t flex);
+  void addPoint(size_t flex, size_t vertex);
+  void addPoint(size_t flex, size_t vertex, const ShapeDef& shape);
+  void placePoint(size_t flex, size_t vertex, BodyId point);
+  void setMoving(size_t flex, size_t vertex, BodyId point);
+  SoftMaterial materialOf(const Flex& flex, const SoftMeshData& mesh, double mass);
+  ShapeDef pointShape(size_t flex, double radius) const;
+  bool isPoint(const FlexVertex& vertex, size_t flex) const {
+    return in_.bodies[static_cast<size_t>(vertex.body)].flex == static_cast<int>(flex);
+  }
+  Vec3d placeOf(const FlexVertex& vertex, const std::vector<Posed>& poses) const;
+
+  // mjcf_build_rope.cpp
+  struct Held {
+    BodyId id;
+    Pose frame;
+  };
+  Held holderOf(const FlexVertex& vertex) const;
+  double momentOfPoint(const Flex& flex) const;
+  double restLength(const Flex& flex, size_t a, size_t b) const;
+  void addRope(size_t flex);
+  void addRods(size_t flex);
+  void addRod(size_t flex, size_t vertex, size_t before);
+  void addEdge(const Flex& flex, const FlexElement& element);
+
   // mjcf_build_tendons.cpp
   Length lengthOf(JointRef joint) const;
   Length lengthOf(const Tendon& tendon) const;
@@ -110,7 +141,8 @@ class Builder {
   Vec3 narrow(Vec3d v, const std::string& where) const;
   size_t rootOf(size_t body) const { return static_cast<size_t>(clusters_.rootOf[body]); }
   Link linkOf(size_t root) const { return clusters_.linkOf[root]; }
-  bool isDynamic(size_t root) const { return linkOf(root) == Link::Free || linkOf(root) == Link::Jointed; }
+  bool isDynamic(size_t root) const { return linkOf(root) != Link::Static && linkOf(root) != Link::Mocap; }
+  bool isParticle(size_t root) const { return linkOf(root) == Link::Particle; }
   /// Of a body that moves, by itself or by its user; else null, the world.
   BodyId movingId(size_t root) const { return isDynamic(root) || linkOf(root) == Link::Mocap ? ids_[root] : BodyId{}; }
   /// Pose of a body in the frame of the body that it is part of.
@@ -139,12 +171,15 @@ class Builder {
   std::vector<double> actuatorStarts_;                // of model_.actuators: the coordinate in the file's sense
   std::vector<size_t> actuatorControls_;              // of model_.actuators: its place in a keyframe's ctrl
   std::vector<ProbeHold> holds_;                      // of equalities that join bodies
+  std::vector<std::vector<double>> pointMass_;        // of in_.flexes, by vertex [kg]; empty of rigid ones
   std::set<std::string> names_;                       // used so far
   Notes notes_;
   GeomShapes shapes_{in_, notes_};
   std::map<std::pair<int, size_t>, PairGroup> pairGroups_;  // by body and geom
   Model model_;
 };
+
+double radiusOfPoint(const Flex& flex);  ///< [m] as a ball
 
 inline Quat toQuat(Quatd q) {
   return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};

@@ -21,7 +21,11 @@ Clusters clustersOf(const Description& description) {
     const Body& body = description.bodies[i];
     const int self = static_cast<int>(i), parent = out.rootOf[static_cast<size_t>(body.parent)];
     const bool isJointed = !body.joints.empty(), isFree = isJointed && body.joints[0].kind == JointKind::Free;
-    out.linkOf[i] = body.mocap ? Link::Mocap : isFree ? Link::Free : isJointed ? Link::Jointed : Link::Static;
+    out.linkOf[i] = body.mocap       ? Link::Mocap
+                    : body.flex >= 0 ? Link::Particle
+                    : isFree         ? Link::Free
+                    : isJointed      ? Link::Jointed
+                                     : Link::Static;
     out.rootOf[i] = out.linkOf[i] != Link::Static ? self : parent;
     const bool onStatic = out.linkOf[static_cast<size_t>(parent)] == Link::Static;
     if (out.linkOf[i] != Link::Static || !onStatic) continue;

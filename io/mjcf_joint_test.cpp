@@ -239,7 +239,7 @@ TEST(MjcfJoint, WhoCollides) {
 
 TEST(MjcfJoint, WhatStandsStillHasNoCoordinates) {
   const Model model = read(
-      "<worldbody><body><joint name='h'/><composite/></body></worldbody><actuator><motor joint='h'/></actuator>"
+      "<worldbody><body><joint name='h'/><replicate/></body></worldbody><actuator><motor joint='h'/></actuator>"
       "<tendon><fixed range='0 1'><joint joint='h' coef='1'/></fixed></tendon><equality><joint "
       "joint1='h'/></equality>");
   EXPECT_TRUE(model.joints.empty());

@@ -11,6 +11,7 @@
 
 #include "io/color.h"
 #include "io/file_error.h"
+#include "io/mjcf_flexcomp.h"
 #include "io/mjcf_math.h"
 #include "io/probe.h"
 
@@ -94,7 +95,30 @@ struct Body {
   bool moves = false;                 ///< it or a body above it has a joint
   bool mocap = false;
   double gravcomp = 0;
+  int flex = -1;                  ///< that it is a vertex of and nothing else: its mass moves as a point
   size_t qposAt = 0, qvelAt = 0;  ///< where its joints' coordinates begin in a keyframe
+};
+
+struct FlexVertex {
+  int body = 0;
+  Vec3d at;  ///< in the body's frame
+};
+
+/// What stretches between places in bodies: lines, triangles or tetrahedra.
+struct Flex {
+  std::string name, where;
+  int dim = 2;
+  double radius = 0.005;
+  std::vector<FlexVertex> vertices;
+  std::vector<FlexElement> elements;
+  double young = 0, poisson = 0;              ///< young 0: it resists nothing
+  double thickness = 0;                       ///< of two dimensions; 0: twice the radius
+  bool stretches = true, bends = true;        ///< of two dimensions: what young is for
+  bool holdsEdges = false;                    ///< an equality keeps the length of each
+  double bending = -1;                        ///< [N m] of two dimensions, where it is given as such
+  double edgeStiffness = 0, edgeDamping = 0;  ///< of one dimension
+  bool touchesItself = true;
+  Geom surface;  ///< friction, filter and colour
 };
 
 struct Exclude {
@@ -210,6 +234,7 @@ struct Description {
   std::vector<Tendon> tendons;
   std::vector<Actuation> actuations;
   std::vector<Sensor> sensors;
+  std::vector<Flex> flexes;
   Vec3d magneticFlux{0, -0.5, 0};
   std::vector<Key> keys;
   std::vector<MeshAsset> meshes;  ///< of the file; those that no geom uses are empty

@@ -103,7 +103,7 @@ TEST(MjcfParse, NotesSayWhatIsNotUsedOnceForAll) {
   const Description d = parse(
       "<option iterations='50' wind='0 0 0' viscosity='1'/><sensor/><actuator/><tendon/><nonsense/>"
       "<worldbody><geom size='1' colour='red' solref='1 1' margin='0'/><geom size='1' colour='red' margin='.1'/>"
-      "<body><composite/><freejoint/><wheel/><geom type='cylinder' size='1 1'/><geom size='1' "
+      "<body><replicate/><freejoint/><wheel/><geom type='cylinder' size='1 1'/><geom size='1' "
       "condim='4'/></body></worldbody>");
   EXPECT_TRUE(hasNote(d, "t.xml:1: option: attribute iterations is not used"));
   EXPECT_TRUE(hasNote(d, "attribute viscosity is not used"));
@@ -113,7 +113,7 @@ TEST(MjcfParse, NotesSayWhatIsNotUsedOnceForAll) {
   EXPECT_TRUE(hasNote(d, "attribute solref is not used"));
   EXPECT_TRUE(hasNote(d, "attribute margin is not used"));
   EXPECT_FALSE(hasNote(d, "margin is not used (and"));
-  EXPECT_TRUE(hasNote(d, "composite: left out"));
+  EXPECT_TRUE(hasNote(d, "replicate: left out"));
   EXPECT_TRUE(hasNote(d, "wheel: unknown element"));
   EXPECT_FALSE(hasNote(d, "cylinder"));
   EXPECT_FALSE(hasNote(d, "condim"));
@@ -149,7 +149,7 @@ TEST(MjcfParse, ColorsAreTheGeomsOrTheMaterials) {
 }
 
 TEST(MjcfParse, KeyframesAreNotUsedWherePartsAreLeftOut) {
-  const Description d = parse("<worldbody><composite/></worldbody><keyframe><key qpos='1 2 3'/></keyframe>");
+  const Description d = parse("<worldbody><replicate/></worldbody><keyframe><key qpos='1 2 3'/></keyframe>");
   ASSERT_EQ(d.keys.size(), 1u);
   EXPECT_TRUE(d.keys[0].qpos.empty());
   EXPECT_TRUE(hasNote(d, "keyframes are not used"));

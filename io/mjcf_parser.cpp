@@ -37,7 +37,9 @@ Description Parser::run() {
   inertials_.emplace_back();
   bodyElems_.push_back(source_.root());
   forSection("worldbody", [&](Elem e) { readBodies(e); });
+  forSection("deformable", [&](Elem e) { readDeformables(e); });
   finishTree();
+  finishFlexes();
   finishMasses();
   forSection("contact", [&](Elem e) { readContact(e); });
   forSection("tendon", [&](Elem e) { readTendons(e); });

@@ -36,6 +36,23 @@ struct MeshSource {
   bool isRead = false;
 };
 
+/// What a <composite> says.
+struct Composite {
+  enum class Kind { Particle, Grid, Cable, Rope, Loop, Cloth, Box, Cylinder, Ellipsoid };
+  Elem elem;
+  Attributes attributes;
+  std::string where, prefix;
+  Kind kind = Kind::Particle;
+  std::array<int, 3> count{1, 1, 1};
+  size_t dim = 0;              ///< counts above 1
+  double spacing = 0;          ///< [m]
+  Vec3d offset{};              ///< in the parent body's frame
+  Geom geom{};                 ///< of each element
+  Joint joint{};               ///< what its main joints have in common
+  double tendonStiffness = 0;  ///< [N/m]
+  std::optional<Attributes> geomAttributes{};
+};
+
 /// What an <inertial> says.
 struct Inertial {
   Elem elem;
@@ -98,6 +115,53 @@ class Parser {
   Posed pose(const Attributes& a) const;
   Vec3d vector(const Attributes& a, std::string_view name, Vec3d otherwise) const;
   std::string nameOnce(const Attributes& a, std::set<std::string, std::less<>>& names);
+
+  // mjcf_parser_flex.cpp: flexes and their parts
+  void readDeformables(Elem elem);
+  void readFlex(Elem elem);
+  void readFlexParts(Elem elem, Flex& flex);
+  void readFlexBase(const Attributes& a, Flex& flex);
+  void readFlexElasticity(Elem elem, Flex& flex);
+  void readFlexPlugin(Elem elem, Flex& flex);
+  void readFlexEquality(Elem elem);
+  std::vector<FlexElement> flexElements(const Attributes& a, int dim, size_t points);
+  std::vector<std::string> words(const Attributes& a, std::string_view name) const;
+  void addFlex(Flex flex);
+  void finishFlexes();
+  bool isParticle(const FlexVertex& vertex, const std::vector<int>& uses) const;
+
+  // mjcf_parser_flexcomp.cpp
+  void readFlexcomp(Elem elem, const OpenElem& in);
+  std::optional<FlexShape> flexcompShape(const Attributes& a, const FlexPattern& pattern);
+  std::optional<FlexShape> gmshShape(const Attributes& a);
+  FlexShape directShape(const Attributes& a, int dim);
+  FlexShape meshShape(const Attributes& a, int dim);
+  FlexPattern flexPattern(const Attributes& a, FlexKind kind, int dim, double radius);
+  std::vector<bool> flexPins(Elem elem, const FlexPattern& pattern, size_t points);
+  void pinGrid(const Attributes& a, bool ranges, const FlexPattern& pattern, std::vector<bool>& pinned);
+  int addPoint(const std::string& name, const std::string& where, Posed pose, int parent);
+  void slide(int body, Vec3d axis, const Joint& like);
+  void chargePoints(const Attributes& a, std::string_view attribute, double count);
+
+  // mjcf_parser_composite.cpp
+  void readComposite(Elem elem, const OpenElem& in);
+  void readCompositeParts(Composite& c);
+  void readCompositeJoint(Elem elem, Composite& c);
+  void needCount(const Composite& c, size_t least, size_t most, int fewest);
+  void addGrid(Composite& c, const OpenElem& in);
+  void addCloth(Composite& c, const OpenElem& in);
+  int addElement(const Composite& c, const std::string& name, Vec3d at, const OpenElem& in);
+  void joinGrid(const Composite& c, Flex flex);
+  std::vector<int> rootElement(const Composite& c, const OpenElem& in, size_t numbers);
+
+  // mjcf_parser_chain.cpp: ropes, loops and cables
+  void addRope(Composite& c, const OpenElem& in);
+  int addLink(const Composite& c, const std::string& number, const Posed& pose, int parent);
+  void addCable(Composite& c, const OpenElem& in);
+  std::vector<Vec3d> cablePoints(Composite& c);
+  std::vector<Vec3d> curvePoints(Composite& c);
+  Geom cableGeom(const Composite& c, double size);
+  void addCableSite(const Composite& c, const char* name, int body, Vec3d at);
 
   // mjcf_parser_joints.cpp
   void readJoint(Elem elem, const OpenElem& in, bool isFree);
@@ -184,6 +248,8 @@ class Parser {
   std::map<std::string, JointRef, std::less<>> jointByName_;
   std::map<std::string, int, std::less<>> siteByName_, tendonByName_;  // into out_.sites and tendons
   std::set<std::string, std::less<>> jointNames_, siteNames_, tendonNames_, actuatorNames_;
+  std::map<std::string, size_t, std::less<>> flexByName_;   // into out_.flexes
+  size_t points_ = 0;                                       // of flexes and composites
   std::map<std::string, int, std::less<>> actuatorByName_;  // into out_.actuations
   std::set<std::string, std::less<>> sensorNames_, equalityNames_, keyNames_, pairNames_, excludeNames_;
   std::map<std::string, std::set<std::string, std::less<>>, std::less<>> assets_;  // names by element

@@ -91,6 +91,8 @@ void Parser::readBodyChild(Elem elem, std::vector<OpenElem>& open) {
   if (name == "joint" || name == "freejoint") return readJoint(elem, in, name == "freejoint");
   if (name == "inertial") return readInertial(elem, in);
   if (name == "site") return readSite(elem, in);
+  if (name == "flexcomp") return readFlexcomp(elem, in);
+  if (name == "composite") return readComposite(elem, in);
   switch (sectionOf("body", name)) {
     case Section::Noted:
       notes_.add(source_.where(elem), "left out", name);

@@ -75,7 +75,12 @@ void Parser::readPair(Elem elem) {
 void Parser::readEqualities(Elem elem) {
   noteChildren(elem, "equality");
   for (const Elem child : source_.children(elem)) {
-    if (sectionOf("equality", child.name()) == Section::Read) readEquality(child);
+    if (sectionOf("equality", child.name()) != Section::Read) continue;
+    if (child.name().starts_with("flex")) {
+      readFlexEquality(child);
+    } else {
+      readEquality(child);
+    }
   }
 }
 

@@ -387,7 +387,8 @@ constexpr AttributeRule kRules[] = {
 
 // A pose is written at these elements only.
 bool hasPose(std::string_view element, std::string_view attribute) {
-  if (element == "body" || element == "geom" || element == "frame" || element == "inertial" || element == "site") {
+  if (element == "body" || element == "geom" || element == "frame" || element == "inertial" || element == "site" ||
+      element == "flexcomp") {
     return true;
   }
   return element == "joint" && attribute == "pos";
@@ -406,8 +407,15 @@ std::string_view familyOf(std::string_view element) {
 
 const AttributeRule* findRule(std::string_view element, std::string_view attribute) {
   element = familyOf(element);
+  for (const AttributeRule& rule : softRules()) {
+    if (rule.element == element && rule.name == attribute) return &rule;
+  }
+  const std::string_view self = element;
+  if (element == "compositejoint") element = "joint";
+  if (element == "compositegeom") element = "geom";
+  if (element == "compositetendon") element = "tendon";
   const auto matches = [&](const AttributeRule& rule) {
-    return rule.name == attribute && (rule.element == element || (rule.element == "*" && hasPose(element, attribute)));
+    return rule.name == attribute && (rule.element == element || (rule.element == "*" && hasPose(self, attribute)));
   };
   const auto it = std::find_if(std::begin(kRules), std::end(kRules), matches);
   return it == std::end(kRules) ? nullptr : &*it;

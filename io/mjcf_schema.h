@@ -1,6 +1,7 @@
 // Which attributes MJCF elements have and what becomes of each.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 namespace avbd::mjcf {
@@ -22,6 +23,9 @@ struct AttributeRule {
 /// Elements that share their attributes and one default: "actuator" for a motor, "equality" for a weld, "tendon" for a
 /// fixed one; all others are their own.
 std::string_view familyOf(std::string_view element);
+
+/// Those of flexes and composites, whose children go by their own names here.
+std::span<const AttributeRule> softRules();
 
 /// Rule of an attribute; null where MJCF has none of that name.
 const AttributeRule* findRule(std::string_view element, std::string_view attribute);

@@ -263,8 +263,8 @@ TEST(Mjcf, RefusedByTheWorldWithThePlaceInTheFile) {
 
 TEST(Mjcf, ABodyWithoutMassButThatOfPartsLeftOutStandsStill) {
   Model model = read(
-      "<worldbody><body name='a' pos='0 0 3'><freejoint/><composite type='cloth'/><body name='c' pos='1 0 0'>"
-      "<joint type='ball'/><geom size='.1'/></body></body><body name='b'><freejoint/><composite/><geom "
+      "<worldbody><body name='a' pos='0 0 3'><freejoint/><replicate/><body name='c' pos='1 0 0'>"
+      "<joint type='ball'/><geom size='.1'/></body></body><body name='b'><freejoint/><replicate/><geom "
       "size='.1'/></body>"
       "</worldbody><contact><exclude body1='a' body2='B0_0'/></contact>"
       "<equality><connect body1='B0_0' body2='b' anchor='0 0 0'/></equality>");
