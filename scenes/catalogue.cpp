@@ -129,6 +129,7 @@ const std::vector<Scene>& all() {
     append(list, stackScenes());
     append(list, netScenes());
     append(list, softScenes());
+    list.push_back(softTorusScene());
     append(list, scissorScenes());
     append(list, ragdollScenes());
     append(list, sleeperScenes());

@@ -10,6 +10,7 @@ std::vector<Scene> stackScenes();
 std::vector<Scene> chainScenes();
 std::vector<Scene> netScenes();
 std::vector<Scene> softScenes();
+Scene softTorusScene();
 std::vector<Scene> scissorScenes();
 std::vector<Scene> ragdollScenes();
 std::vector<Scene> sleeperScenes();
