@@ -48,11 +48,11 @@ void checkCell(const SoftLatticeDef& def, const ClosedSurface& surface) {
     largest = std::fmax(largest, std::fmax(std::fabs(part(surface.lower(), i)), std::fabs(part(surface.upper(), i))));
     most *= cubesOf(surface, double{def.cellSize})[i];
   }
+  if (!(most <= kMostCubes))
+    no("makes " + toText(static_cast<float>(most)) + " cubes of the surface's bounds, must be at most 500000");
   if (!(def.cellSize >= kLeastOfCoordinate * largest))
     no("must be at least " + toText(static_cast<float>(kLeastOfCoordinate * largest)) +
        ", 1e-4 of the largest coordinate");
-  if (!(most <= kMostCubes))
-    no("makes " + toText(static_cast<float>(most)) + " cubes of the surface's bounds, must be at most 500000");
 }
 
 /// A layer of cubes more on each side: the surface lies between middles of cubes.
@@ -62,6 +62,23 @@ Lattice latticeOf(const ClosedSurface& surface, double cell) {
   for (size_t i = 0; i < 3; ++i) cubes[i] = static_cast<int>(needed[i]) + 2;
   const Vec3d middle = (surface.lower() + surface.upper()) * 0.5;
   return {middle - Vec3d{cubes[0] * cell, cubes[1] * cell, cubes[2] * cell} * 0.5, cell, cubes};
+}
+
+/// Of the points that tetrahedra have, in the lattice's order.
+std::shared_ptr<const SoftMeshData> softMeshOf(LatticeMesh mesh) {
+  constexpr uint32_t kNone = 0xffffffffu;
+  std::vector<uint32_t> place(mesh.points.size(), kNone);
+  for (const auto& tet : mesh.tets)
+    for (const uint32_t p : tet) place[p] = 0;
+  std::vector<Vec3> points;
+  for (size_t i = 0; i < place.size(); ++i) {
+    if (place[i] == kNone) continue;
+    place[i] = static_cast<uint32_t>(points.size());
+    points.push_back(toFloat(mesh.points[i]));
+  }
+  for (auto& tet : mesh.tets)
+    for (uint32_t& p : tet) p = place[p];
+  return makeTetMesh({points, mesh.tets});
 }
 
 }  // namespace
@@ -78,13 +95,10 @@ std::shared_ptr<const SoftMeshData> makeTetLattice(const SoftLatticeDef& def) {
     const ClosedSurface::Nearest nearest = surface.nearest(p);
     return nearest.behind ? nearest.distance : -nearest.distance;
   };
-  const LatticeMesh mesh = def.fit == LatticeFit::Cover ? coverLattice(lattice, depth) : cutLattice(lattice, depth);
+  LatticeMesh mesh = def.fit == LatticeFit::Cover ? coverLattice(lattice, depth) : cutLattice(lattice, depth);
   if (mesh.tets.empty())
     refuse("cellSize", toText(def.cellSize), "must be less: no tetrahedron of such cells lies in the solid");
-  std::vector<Vec3> points;
-  points.reserve(mesh.points.size());
-  for (const Vec3d& p : mesh.points) points.push_back(toFloat(p));
-  return makeTetMesh({points, mesh.tets});
+  return softMeshOf(std::move(mesh));
 }
 
 }  // namespace avbd

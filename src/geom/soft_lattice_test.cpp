@@ -115,6 +115,7 @@ TEST(SoftLattice, NoTetrahedronIsThin) {
     const auto mesh = latticeOf(c.surface, c.cell);
     const SoftMeshQuality quality = qualityOf(*mesh);
     EXPECT_EQ(mesh->report().inverted + mesh->report().degenerate + mesh->report().duplicate, 0u) << c.name;
+    EXPECT_EQ(mesh->report().unused, 0u) << c.name;
     EXPECT_GE(quality.leastAngle, 13 * kDegree) << c.name;
     EXPECT_LE(quality.greatestAngle, 157 * kDegree) << c.name;
     EXPECT_GE(quality.leastRadiusRatio, 0.15) << c.name;
