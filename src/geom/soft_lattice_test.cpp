@@ -83,6 +83,11 @@ TEST(SoftLattice, ABoxOfWholeCellsIsMetExactly) {
   }
 }
 
+TEST(SoftLattice, SameBitsFromEveryCompiler) {
+  EXPECT_EQ(latticeOf(lMesh(), 0.11f)->contentHash(), 0xe8d85096f86f1d97u);
+  EXPECT_EQ(latticeOf(lMesh(), 0.11f, LatticeFit::Cover)->contentHash(), 0x9724babdeccd993eu);
+}
+
 struct Case {
   const char* name;
   TestMesh surface;
