@@ -78,7 +78,7 @@ void checkMesh(const SoftMeshData& mesh, const SoftLatticeDef& def) {
   const SoftMeshReport& report = mesh.report();
   require(report.inverted + report.degenerate + report.duplicate + report.unused == 0, "a lattice that was repaired");
   const SoftMeshQuality quality = qualityOf(mesh);
-  require(quality.leastAngle >= 12 * kDegree && quality.greatestAngle <= 161 * kDegree, "a thin tetrahedron");
+  require(quality.leastAngle >= 9 * kDegree && quality.greatestAngle <= 166 * kDegree, "a thin tetrahedron");
   require(quality.leastHeight >= 0.05 * double{def.cellSize}, "a flat tetrahedron");
   const auto [lower, upper] = boundsOf(def.points);
   const float far = 2 * def.cellSize;

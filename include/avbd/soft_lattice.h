@@ -3,7 +3,7 @@
 // The solid is filled with a body-centred cubic lattice, whose tetrahedra are all alike and nearly regular. Where the
 // surface passes, lattice points that lie near it are moved onto it, and the tetrahedra that it still cuts are replaced
 // by a few within the solid (isosurface stuffing: Labelle and Shewchuk, 2007). Whatever the surface is like, angles
-// between two faces of a tetrahedron stay above 13 degrees. Edges and corners that lie between lattice points are
+// between two faces of a tetrahedron stay above 9 degrees. Edges and corners that lie between lattice points are
 // bevelled, and what is thinner than a cell may be missing.
 #pragma once
 

@@ -10,7 +10,7 @@ namespace {
 /// Parts of a long and of a short edge: a point that the surface cuts an edge nearer to is moved there, to the nearest
 /// such cut. Larger parts distort what lies around, smaller ones leave thin tetrahedra; with these the least angle that
 /// any sides and cuts were found to give is greatest.
-constexpr double kNearOfLong = 0.3, kNearOfShort = 0.45;
+constexpr double kNearOfLong = 0.26, kNearOfShort = 0.42;
 constexpr int kCoverLevels = 4;  // halvings in search of what of a tetrahedron lies in the solid
 constexpr double kOn = 1e-6;     // [of a cell] nearer to the surface is on it
 

@@ -11,7 +11,7 @@ void Stencils::emit(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
 
 /// Cutting off a corner of a face leaves two ends of an edge inside and two cuts. Whether the diagonal starts at a, the
 /// first end: told by the face alone, so that its two tetrahedra agree. Where one cut is of a long edge, the diagonal
-/// ends there: that keeps the least angle at 13 degrees, the other way at 7.
+/// ends there: the other way leaves thinner tetrahedra.
 bool Stencils::startsAtFirst(uint32_t a, uint32_t b, uint32_t outside) const {
   const bool longA = lattice_.isLong(a, outside), longB = lattice_.isLong(b, outside);
   if (longA != longB) return longB;
