@@ -12,6 +12,8 @@ namespace avbd::cli {
 namespace {
 
 constexpr const char* kSolver = "Solver";
+constexpr const char* kSoft =
+    "of a closed surface (.obj, .stl, .msh): makes it a soft body of a lattice of this cell [m]";
 
 void addSolver(CLI::App& command, scenes::Settings& s, std::string& solver) {
   command.add_option("--substeps", s.substeps, "substeps of a step [1]")->group(kSolver);
@@ -74,11 +76,14 @@ void addPort(CLI::App& command, int& port) {
 }
 
 CLI::App* addRun(CLI::App& app, RunArguments& a, std::string& solver) {
-  CLI::App* run = app.add_subcommand("run", "Simulate a MJCF or URDF file or a built-in scene and report");
-  run->add_option("scene", a.scene, "FILE.xml, FILE.urdf, or a name that `avbd scenes` lists")->required();
+  CLI::App* run = app.add_subcommand("run", "Simulate a MJCF or URDF file, a soft mesh or a built-in scene and report");
+  run->add_option("scene", a.scene,
+                  "FILE.xml, FILE.urdf, a soft mesh (.msh, .vtk, .node, .ele), or a name that `avbd scenes` lists")
+      ->required();
   run->add_option("--time", a.time, "simulated time [s]; else the scene's own");
   run->add_option("--dt", a.dt, "step [s]; else the file's or scene's own");
   run->add_option("--keyframe", a.keyframe, "keyframe of the file to start at; else its first one");
+  run->add_option("--soft", a.soft, kSoft);
   run->add_option("--html", a.html, "write a page that plays the run");
   run->add_option("--poses", a.poses, "write poses of body frames as CSV, in the file's world frame");
   run->add_option("--probes", a.probes, "write what the file's sensors measure as CSV, a row a step");
@@ -123,9 +128,12 @@ CLI::App* addReplay(CLI::App& app, ReplayArguments& a, std::string& solver) {
 
 CLI::App* addInfo(CLI::App& app, InfoArguments& a) {
   CLI::App* info = app.add_subcommand("info", "Say what a file holds, and what of it was ignored and why");
-  info->add_option("file", a.file, "MJCF, URDF, a mesh (.obj, .stl, .msh), a recording (.avbd), or a scene's name")
+  info->add_option("file", a.file,
+                   "MJCF, URDF, a mesh (.obj, .stl, .msh), a soft mesh (.msh, .vtk, .node, .ele), a recording (.avbd), "
+                   "or a scene's name")
       ->required();
   info->add_option("--keyframe", a.keyframe, "keyframe of the file to start at; else its first one");
+  info->add_option("--soft", a.soft, kSoft);
   info->add_flag("--json", a.json, "one JSON object");
   addUrdf(*info, a.urdf);
   return info;

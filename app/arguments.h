@@ -34,6 +34,7 @@ struct RunArguments {
   bool live = false;               ///< serve the page while it runs
   int port = kLivePort;            ///< of `live`
   std::optional<std::string> keyframe;
+  std::optional<double> soft;  ///< [m] cell of the lattice that a surface becomes
   UrdfArguments urdf;
   bool json = false, report = true;
   scenes::Settings settings;
@@ -72,6 +73,7 @@ struct ReplayArguments {
 struct InfoArguments {
   std::string file;  ///< a model, a mesh, a recording, or a scene's name
   std::optional<std::string> keyframe;
+  std::optional<double> soft;  ///< as of `run`
   UrdfArguments urdf;
   bool json = false;
 };

@@ -7,7 +7,9 @@
 #include "app/info_figures.h"
 #include "app/json_text.h"
 #include "app/load.h"
+#include "app/soft_files.h"
 #include "io/record/reader.h"
+#include "io/soft_mesh_file.h"
 
 namespace avbd::cli {
 namespace {
@@ -40,6 +42,11 @@ MeshInfo meshInfo(const std::string& file) {
 
 int infoCommand(const InfoArguments& a, std::ostream& out) {
   const std::string kind = kindOf(a.file);
+  if (a.soft || isSoftMeshFile(a.file)) {
+    if (a.keyframe) throw BadInput("--keyframe " + *a.keyframe + ": " + a.file + " has none");
+    print(infoOf(readSoft(a.file, a.soft), a.file), a.json, out);
+    return kExitDone;
+  }
   const bool isMesh = kind == ".obj" || kind == ".stl" || kind == ".msh",
              isRecording = kind == ".avbd" || avbd::isRecording(a.file);
   if ((isMesh || isRecording) && a.keyframe) throw BadInput("--keyframe " + *a.keyframe + ": " + a.file + " has none");

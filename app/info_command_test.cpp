@@ -178,5 +178,39 @@ TEST(InfoCommand, Refuses) {
   expectRefused({"info", "pyramid3"}, {"pyramid30"});
 }
 
+TEST(InfoCommand, ASoftMesh) {
+  const TestFolder folder;
+  const std::string file = folder.write("one.msh",
+                                        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 2 0 0\n3 0 1 0\n"
+                                        "4 0 0 3\n$EndNodes\n$Elements\n2\n1 4 0 1 3 2 4\n2 15 0 1\n$EndElements\n");
+  const Invoked text = invoke({"info", file});
+  EXPECT_EQ(text.status, 0) << text.err;
+  for (const char* part : {"soft mesh", "1, outside of 4 triangles", "1 inverted were turned", "0, 0, 0 to 2, 1, 3 m",
+                           "1 m^3", "1 points are left out"})
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << "\n" << text.out;
+  const Json json = Json::parse(invoke({"info", file, "--json"}).out);
+  EXPECT_EQ(json["tetrahedra"], 1);
+  EXPECT_EQ(json["inverted"], 1);
+  EXPECT_NEAR(json["volume"].get<double>(), 1, 1e-6);
+  EXPECT_TRUE(json["surface_volume"].is_null());
+  EXPECT_EQ(json["notes"].size(), 1u);
+  expectRefused({"info", file, "--soft", "0.1"}, {"--soft 0.1", "already"});
+  expectRefused({"info", file, "--keyframe", "home"}, {"--keyframe home"});
+}
+
+TEST(InfoCommand, ASurfaceAsALattice) {
+  const TestFolder folder;
+  const std::string file = folder.write("t.obj", tetra());
+  const Invoked text = invoke({"info", file, "--soft", "0.25"});
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_NE(text.out.find("% of its volume"), std::string::npos) << text.out;
+  const Json json = Json::parse(invoke({"info", file, "--soft", "0.25", "--json"}).out);
+  EXPECT_NEAR(json["surface_volume"].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(json["volume"].get<double>(), 1, 0.2);
+  EXPECT_GT(json["least_angle"].get<double>(), 0.2);
+  expectRefused({"info", file, "--soft", "-1"}, {"SoftLatticeDef.cellSize = -1"});
+  expectRefused({"info", "chain", "--soft", "1"}, {"--soft 1", "scene"});
+}
+
 }  // namespace
 }  // namespace avbd::cli

@@ -184,6 +184,30 @@ std::string jsonText(const MeshInfo& info) {
   return text(json);
 }
 
+std::string jsonText(const SoftMeshInfo& info) {
+  const auto json = [](Vec3d v) { return Json::array({v.x, v.y, v.z}); };
+  return text({{"soft_mesh", info.name},
+               {"points", info.points},
+               {"tetrahedra", info.tets},
+               {"triangles", info.triangles},
+               {"surface_triangles", info.surface},
+               {"inverted", info.report.inverted},
+               {"degenerate", info.report.degenerate},
+               {"duplicate", info.report.duplicate},
+               {"unused", info.report.unused},
+               {"pieces", info.quality.pieces},
+               {"lower", json(info.lower)},
+               {"upper", json(info.upper)},
+               {"volume", info.volume},
+               {"surface_volume", info.surfaceVolume ? Json(*info.surfaceVolume) : Json()},
+               {"area", info.area},
+               {"least_angle", info.quality.leastAngle},
+               {"greatest_angle", info.quality.greatestAngle},
+               {"least_radius_ratio", info.quality.leastRadiusRatio},
+               {"least_height", info.quality.leastHeight},
+               {"notes", info.notes}});
+}
+
 std::string jsonText(const ReportLines& lines) {
   Json json = Json::object();
   for (const auto& [label, value] : lines) {

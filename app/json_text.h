@@ -5,6 +5,7 @@
 
 #include "app/figures.h"
 #include "app/info_figures.h"
+#include "app/soft_files.h"
 #include "bench/bench.h"
 
 namespace avbd::cli {
@@ -22,6 +23,7 @@ std::string jsonText(const bench::BenchRecord& record);
 std::string jsonText(const VerifyRecord& record);
 std::string jsonText(const ModelInfo& info);
 std::string jsonText(const MeshInfo& info);
+std::string jsonText(const SoftMeshInfo& info);
 /// Each label with its text.
 std::string jsonText(const ReportLines& lines);
 

@@ -9,7 +9,9 @@
 #include "app/commands.h"
 #include "app/failure.h"
 #include "app/number_text.h"
+#include "app/soft_files.h"
 #include "io/mjcf.h"
+#include "io/soft_mesh_file.h"
 #include "io/urdf.h"
 
 namespace avbd::cli {
@@ -103,6 +105,11 @@ Model loadUrdf(const RunArguments& a) {
 }  // namespace
 
 Model loadModel(const RunArguments& a) {
+  if (a.soft || isSoftMeshFile(a.scene)) {
+    if (a.keyframe) throw BadInput("--keyframe " + *a.keyframe + ": a soft mesh has no keyframes");
+    refuseUrdfOptions(a.urdf, a.scene);
+    return dropped(readSoft(a.scene, a.soft), a.scene, a.settings);
+  }
   if (const scenes::Scene* scene = scenes::find(a.scene)) {
     if (a.keyframe) throw BadInput("--keyframe " + *a.keyframe + ": scene " + a.scene + " has no keyframes");
     refuseUrdfOptions(a.urdf, "scene " + a.scene);

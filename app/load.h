@@ -6,7 +6,8 @@
 
 namespace avbd::cli {
 
-/// A built-in scene by its name, else a MJCF or URDF file by its root element. Throws BadInput, FileError or Error.
+/// A built-in scene by its name, else a soft mesh, or a MJCF or URDF file by its root element. Throws BadInput,
+/// FileError or Error.
 Model loadModel(const RunArguments& arguments);
 
 struct Plan {

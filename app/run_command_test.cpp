@@ -47,6 +47,17 @@ std::vector<std::vector<std::string>> rowsOf(const std::string& csv) {
 
 size_t lineCount(const std::string& text) { return static_cast<size_t>(std::count(text.begin(), text.end(), '\n')); }
 
+TEST(Run, ASoftBodyOfASurfaceFalls) {
+  const TestFolder folder;
+  const std::string file =
+      folder.write("t.obj", "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const Json json = Json::parse(invoke({"run", file, "--soft", "0.5", "--time", "0.5", "--json"}).out);
+  EXPECT_TRUE(json["finite"].get<bool>());
+  EXPECT_GT(json["contact_points"].get<int>(), 0);
+  const Invoked refused = invoke({"run", file, "--soft", "0.5", "--floating"});
+  EXPECT_NE(refused.err.find("--floating"), std::string::npos) << refused.err;
+}
+
 TEST(Run, PrintsExactlyTheKeysOfTheReport) {
   const TestFolder folder;
   const Invoked run = invoke({"run", folder.write("falling.xml", kFalling), "--time", "0.5", "--json"});

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "io/mesh_file_parts.h"
+#include "io/soft_mesh_file_parts.h"
 
 namespace avbd {
 
@@ -41,6 +42,8 @@ MeshFile readBytes(std::span<const std::byte> bytes, std::string_view kind, cons
     }
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   }
+  if (asked == "msh" && soft_mesh_file::isGmsh(text))
+    throw FileError(name + ": is a Gmsh mesh, a soft body's: must be MuJoCo's MSH", name);
   const bool lies = asked != "stl" && !(asked == "msh" && mesh_file::isMsh(text)) && mesh_file::isStl(text);
   MeshFile out = lies || asked == "stl" ? mesh_file::readStl(text, name)
                  : asked == "obj"       ? mesh_file::readObj(text, name)

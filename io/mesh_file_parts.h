@@ -24,6 +24,9 @@ bool isMsh(std::string_view bytes);
 uint32_t word(std::string_view bytes, size_t at);
 float real(std::string_view bytes, size_t at);
 
+/// The value that text stands for; false where it is none. Too small numbers are 0.
+bool parseNumber(std::string_view text, double& out);
+
 /// Tokens of a text, line by line. A backslash before the end of a line joins it with the next one.
 class TextScan {
  public:

@@ -11,8 +11,9 @@ namespace {
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-// The value that text stands for; false where it is none. Too small numbers are 0.
-bool parse(std::string_view text, double& out) {
+}  // namespace
+
+bool parseNumber(std::string_view text, double& out) {
   if (text.starts_with('+')) text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
   if (end != text.data() + text.size()) return false;
@@ -23,8 +24,6 @@ bool parse(std::string_view text, double& out) {
   }
   return error == std::errc{};
 }
-
-}  // namespace
 
 uint32_t word(std::string_view bytes, size_t at) {
   uint32_t out = 0;
@@ -88,7 +87,7 @@ float TextScan::number(std::string_view what) {
   const std::string_view text = token();
   if (text.empty()) failAt(line_, std::string(what) + " is missing: must be a finite number");
   double value = 0;
-  const bool isNumber = parse(text, value);
+  const bool isNumber = parseNumber(text, value);
   const float out = static_cast<float>(value);
   if (!isNumber || !std::isfinite(out)) fail(what, text, "must be a finite number within the range of float");
   return out;

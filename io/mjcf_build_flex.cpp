@@ -223,7 +223,9 @@ void Builder::addSoft(size_t index) {
   def.radius = mjcf::narrow(radius, flex.where);
   def.surface = shape.material;
   def.filter = shape.filter;
+  def.selfContact = flex.touchesItself;
   const SoftId soft = at(flex.where, [&] { return model_.world.create(def); });
+  model_.softs.push_back({soft, flex.name});
   const std::vector<BodyId> particles = model_.world.particles(soft);
   for (uint32_t k = 0; k < particles.size(); ++k) {
     const size_t vertex = def.mesh->sourcePoint(k);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "io/mjcf.h"
 
@@ -354,6 +355,18 @@ TEST(MjcfFlex, BrokenFlexesAreRefusedWithTheirPlace) {
   }
   EXPECT_NE(messageOf("<equality><flex flex='F'/></equality>").find("flex = \"F\": no flex has this name"),
             std::string::npos);
+}
+
+TEST(MjcfFlex, AFlexcompIsMadeOfAGmshFile) {
+  const std::filesystem::path folder = std::filesystem::path(__FILE__).parent_path() / "corpus" / "soft";
+  for (const char* file : {"cube_22_text.msh", "cube_41_binary.msh"}) {
+    const Model model = readWorld("<flexcomp name='F' type='gmsh' dim='3' file='" + (folder / file).string() +
+                                  "' mass='5' scale='2 2 2'><elasticity young='1e4'/></flexcomp>");
+    const SoftId soft = onlySoft(model);
+    EXPECT_NEAR(model.world.volume(soft), 8 * model.world.mesh(soft)->volume() / 8, 1e-4);
+    EXPECT_NEAR(massOf(model), 5, 1e-4);
+    EXPECT_EQ(model.softs.at(0).name, "F");
+  }
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ class Parser {
   // mjcf_parser_flexcomp.cpp
   void readFlexcomp(Elem elem, const OpenElem& in);
   std::optional<FlexShape> flexcompShape(const Attributes& a, const FlexPattern& pattern);
-  std::optional<FlexShape> gmshShape(const Attributes& a);
+  FlexShape gmshShape(const Attributes& a);
   FlexShape directShape(const Attributes& a, int dim);
   FlexShape meshShape(const Attributes& a, int dim);
   FlexPattern flexPattern(const Attributes& a, FlexKind kind, int dim, double radius);

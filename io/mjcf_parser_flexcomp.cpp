@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "io/gmsh_file.h"
+#include "io/soft_mesh_file.h"
 #include "io/mesh_file_parts.h"
 #include "io/mjcf_parser.h"
 #include "io/mjcf_schema.h"
@@ -103,22 +103,19 @@ FlexShape Parser::meshShape(const Attributes& a, int dim) {
   return solidAbout(vector(a, "origin", {}), out);
 }
 
-// Nothing where the file is of a kind that is not read, with a note.
-std::optional<FlexShape> Parser::gmshShape(const Attributes& a) {
+FlexShape Parser::gmshShape(const Attributes& a) {
   a.requiredText("file");
   const std::filesystem::path path = assetPath(a);
   std::string bytes(std::filesystem::file_size(path), '\0');
   std::ifstream(path, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   const std::string where = source_.where(a.elem());
   try {
-    const GmshFile file = readGmsh(bytes, path.string());
-    if (!file.leftOut.empty()) {
-      notes_.add(where, "left out: GMSH files are read as text of version 2.2 or 4.1, this is " + file.leftOut,
-                 "flexcomp");
-      return {};
-    }
+    const SoftMeshFile file = readSoftMeshBytes(std::as_bytes(std::span<const char>(bytes)), "msh", path.string());
+    for (const std::string& note : file.notes) notes_.add(where, note, "flexcomp");
     chargePoints(a, "file", static_cast<double>(file.points.size()));
-    FlexShape out{file.dim, {}, file.elements};
+    FlexShape out{file.tets.empty() ? 2 : 3, {}, file.tets};
+    if (file.tets.empty())
+      for (const auto& t : file.triangles) out.elements.push_back({t[0], t[1], t[2], 0});
     for (const Vec3 p : file.points) out.points.push_back(toDouble(p));
     return out;
   } catch (const FileError& error) {

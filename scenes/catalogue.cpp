@@ -154,6 +154,7 @@ const std::vector<Scene>& all() {
     append(list, netScenes());
     append(list, softScenes());
     append(list, mixedScenes());
+    list.push_back(softTorusScene());
     append(list, scissorScenes());
     append(list, ragdollScenes());
     append(list, sleeperScenes());

@@ -11,6 +11,7 @@ std::vector<Scene> chainScenes();
 std::vector<Scene> netScenes();
 std::vector<Scene> softScenes();
 std::vector<Scene> mixedScenes();
+Scene softTorusScene();
 std::vector<Scene> scissorScenes();
 std::vector<Scene> ragdollScenes();
 std::vector<Scene> sleeperScenes();

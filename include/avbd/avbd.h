@@ -19,6 +19,8 @@
 #include <avbd/profile.h>
 #include <avbd/query.h>
 #include <avbd/soft.h>
+#include <avbd/soft_binding.h>
+#include <avbd/soft_lattice.h>
 #include <avbd/soft_mesh.h>
 #include <avbd/tasks.h>
 #include <avbd/types.h>
