@@ -163,7 +163,7 @@ void addWaves(World& world, Draws& draws) {
 
 // Every convex shape on a height field and a mesh side by side.
 // Cloth that falls on two soft cubes that fall on the ground and on each other, a box hanging on a corner of one of
-// them.
+// them; beside them one of each other kind: damped, incompressible, and woven cloth whose limit holds a weight.
 World soft(const WorldDef& def) {
   World world = begin(def);
   const auto cube = makeTetBox({0.3f, 0.3f, 0.3f}, 3, 3, 3);
@@ -181,6 +181,29 @@ World soft(const WorldDef& def) {
   world.create(SoftDef{.mesh = makeClothGrid(0.6f, 0.6f, 6, 6),
                        .pose = {{0.1, 2, 0}, {}},
                        .material = {.youngsModulus = 2e5f, .density = 300}});
+  const auto small = makeTetBox({0.2f, 0.2f, 0.2f}, 2, 2, 2);
+  world.create(SoftDef{.mesh = small,
+                       .pose = {{2, 0.3, 0}, {}},
+                       .velocity = {{1, 0, 0}, {0, 1, 2}},
+                       .material = {.poissonRatio = 0.4f, .damping = 0.1f}});
+  world.create(SoftDef{.mesh = small,
+                       .pose = {{4, 0.3, 0}, {}},
+                       .velocity = {{1, 0, 0}, {0, 1, 2}},
+                       .material = {.poissonRatio = 0.4999f}});
+  const SoftId flag = world.create(SoftDef{.mesh = makeClothGrid(0.3f, 0.3f, 4, 4),
+                                           .pose = {{6, 1, 0}, {}},
+                                           .material = {.youngsModulus = 2e4f,
+                                                        .thickness = 0.001f,
+                                                        .damping = 0.05f,
+                                                        .maxStrain = 0.05f,
+                                                        .warp = {1, 0, 1},
+                                                        .weftModulus = 1e4f,
+                                                        .shearModulus = 2e3f}});
+  const std::vector<BodyId> points = world.particles(flag);
+  world.setLocks(points[0], kLockLinearX | kLockLinearY | kLockLinearZ);
+  const Vec3d corner = world.pose(points.back()).position;
+  const BodyId weight = world.create(BodyDef{.position = corner, .shape = Sphere{0.05f}, .mass = 2});
+  world.create(BallJoint{.bodyA = weight, .bodyB = points.back()});
   return world;
 }
 

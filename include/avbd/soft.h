@@ -13,12 +13,21 @@
 namespace avbd {
 
 struct SoftMaterial {
-  float youngsModulus = 1e5f;  ///< [Pa] > 0
-  float poissonRatio = 0.3f;   ///< -0.9 .. 0.499
+  float youngsModulus = 1e5f;  ///< [Pa] > 0; of woven cloth along the warp
+  float poissonRatio = 0.3f;   ///< -0.9 .. 0.4999
   float density = 1000;        ///< [kg/m^3] > 0
   float thickness = 0.002f;    ///< [m] > 0, of cloth
   /// [N m] >= 0, of cloth: moment by length and curvature. Less than 0: that of a plate, E h^3 / 12 (1 - nu^2).
   float bending = -1;
+  /// [s] >= 0: viscous stress is this times the rate at which elastic stress changes, so that a vibration of angular
+  /// frequency w decays by w^2 damping / 2. A (sub)step damps as its own length would: no less can be had than that.
+  float damping = 0;
+  /// Of cloth: no direction of it stretches by more than this. Less than 0: there is no limit; else > 0.
+  float maxStrain = -1;
+  // Of woven cloth, which is not as stiff across its warp as along it.
+  Vec3 warp{};              ///< direction in the mesh, projected on each triangle; zero: cloth is the same all ways
+  float weftModulus = -1;   ///< [Pa] > 0 across the warp. Less than 0: youngsModulus.
+  float shearModulus = -1;  ///< [Pa] > 0 between warp and weft. Less than 0: E / 2 (1 + nu), E the lesser modulus.
 };
 
 struct SoftDef {

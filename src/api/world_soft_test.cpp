@@ -147,6 +147,16 @@ TEST(Soft, WhatIsNoneIsRefusedByName) {
   expectRefused({.surface = {.friction = -1}}, "surface");
   expectRefused({.material = {.thickness = 0}}, "thickness");
   expectRefused({.material = {.bending = nan}}, "bending");
+  expectRefused({.material = {.poissonRatio = 0.5f}},
+                "poissonRatio = 0.5: must be finite and >= -0.9 and at most 0.4999");
+  for (const float bad : {-1.0f, nan, 1e7f}) expectRefused({.material = {.damping = bad}}, "damping");
+  for (const float bad : {0.0f, nan, 1e7f}) expectRefused({.material = {.maxStrain = bad}}, "maxStrain");
+  for (const float bad : {0.0f, nan, 1e14f}) {
+    expectRefused({.material = {.warp = {1, 0, 0}, .weftModulus = bad}}, "weftModulus");
+    expectRefused({.material = {.warp = {1, 0, 0}, .shearModulus = bad}}, "shearModulus");
+  }
+  expectRefused({.material = {.warp = {nan, 0, 0}}}, "warp");
+  expectRefused({.material = {.weftModulus = 1e5f}}, "warp = (0, 0, 0): must be longer than");
   // Of some particle alone.
   expectRefused({.pose = {{1e9, 0, 0}, {}}}, "pose");
   expectRefused({.velocity = {{1e9f, 0, 0}, {0, 1e6f, 0}}}, "velocity");

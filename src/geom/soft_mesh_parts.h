@@ -27,6 +27,12 @@ struct HingeAtRest {
   float areas = 0;                ///< [m^2] of both triangles
 };
 
+/// A point of another's star: b_j of rows/star_elastic.h.
+struct StarPoint {
+  uint32_t point = 0;
+  Vec3 gradient;  ///< [1/m]
+};
+
 struct SoftMeshData::Parts {
   SoftMeshReport report;
   std::vector<Vec3> points;
@@ -36,6 +42,11 @@ struct SoftMeshData::Parts {
   std::vector<TetAtRest> tetsAtRest;
   std::vector<TriangleAtRest> trianglesAtRest;
   std::vector<HingeAtRest> hingesAtRest;
+  // Of each point of a solid its star, the tetrahedra about it: the other points of it, ascending, those of point i
+  // from starBegin[i] on; a quarter of its volume [m^3].
+  std::vector<uint32_t> starBegin;
+  std::vector<StarPoint> starPoints;
+  std::vector<float> starVolumes;
   std::unique_ptr<const FaceTree> faceTree;
   SurfaceFeatures features;       ///< of the surface
   std::vector<Vec3> faceCentres;  ///< likewise, at rest
@@ -64,6 +75,8 @@ void takePoints(std::span<const Vec3> points, std::vector<std::array<uint32_t, n
                 SoftMeshData::Parts& parts);
 /// Fills what elements and hinges are at rest.
 void findRest(SoftMeshData::Parts& parts);
+/// Fills what stars are at rest, from what tetrahedra are.
+void findStars(SoftMeshData::Parts& parts);
 /// What follows from points, elements and surface.
 std::shared_ptr<const SoftMeshData> finish(std::unique_ptr<SoftMeshData::Parts> parts);
 

@@ -49,6 +49,7 @@ void findRest(SoftMeshData::Parts& parts) {
   for (size_t i = 0; i < parts.tets.size(); ++i) parts.tetsAtRest.push_back(tetAtRest(parts, i));
   for (size_t i = 0; i < parts.triangles.size(); ++i) parts.trianglesAtRest.push_back(triangleAtRest(parts, i));
   for (size_t i = 0; i < parts.hinges.size(); ++i) parts.hingesAtRest.push_back(hingeAtRest(parts, i));
+  findStars(parts);
 }
 
 }  // namespace avbd::soft_mesh

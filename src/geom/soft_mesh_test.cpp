@@ -3,9 +3,13 @@
 #include <avbd/soft_mesh.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
+
+#include "geom/soft_mesh_parts.h"
 
 namespace avbd {
 namespace {
@@ -145,6 +149,65 @@ TEST(ClothMesh, RepairsByItsRules) {
   EXPECT_EQ(mesh->report().unused, 1u);
   EXPECT_EQ(mesh->sourcePoint(3), 4u);
 }
+
+/// dx/dX of a map of the points, by the star of each.
+template <class Map>
+void eachStar(const SoftMeshData& mesh, Map&& map, const std::function<void(uint32_t, const Vec3d (&)[3])>& f) {
+  const SoftMeshData::Parts& parts = mesh.parts();
+  for (uint32_t center = 0; center < mesh.points().size(); ++center) {
+    Vec3d column[3];
+    for (uint32_t i = parts.starBegin[center]; i < parts.starBegin[center + 1]; ++i) {
+      const StarPoint& star = parts.starPoints[i];
+      const Vec3d arm = map(toDouble(mesh.points()[star.point])) - map(toDouble(mesh.points()[center]));
+      const float g[3] = {star.gradient.x, star.gradient.y, star.gradient.z};
+      for (size_t k = 0; k < 3; ++k) column[k] = column[k] + arm * double{g[k]};
+    }
+    f(center, column);
+  }
+}
+
+TEST(TetMesh, StarsFindEveryLinearMapAndShareTheVolume) {
+  const auto mesh = makeTetBox({0.5f, 0.3f, 0.2f}, 4, 3, 2);
+  const Vec3d x{1.2, 0.1, -0.3}, y{0.4, 0.9, 0.2}, z{-0.1, 0.5, 1.1};
+  eachStar(
+      *mesh,
+      [&](Vec3d p) {
+        return x * p.x + y * p.y + z * p.z + Vec3d{3, 4, 5};
+      },
+      [&](uint32_t, const Vec3d(&column)[3]) {
+        for (const Vec3d& off : {column[0] - x, column[1] - y, column[2] - z}) EXPECT_LT(dot(off, off), 1e-10);
+      });
+  double volume = 0;
+  for (const float v : mesh->parts().starVolumes) volume += double{v};
+  EXPECT_NEAR(volume, mesh->volume(), 1e-6);
+}
+
+TEST(TetMesh, AStarIsTheMeanOfItsTetrahedra) {
+  const auto mesh = makeTetBox({0.5f, 0.3f, 0.2f}, 2, 2, 2);
+  const SoftMeshData::Parts& parts = mesh->parts();
+  // Bent: no star's mean is that of another.
+  const auto bent = [](Vec3d p) { return Vec3d{p.x + 0.3 * p.x * p.y, p.y - 0.2 * p.x * p.x, p.z + 0.1 * p.z * p.y}; };
+  eachStar(*mesh, bent, [&](uint32_t center, const Vec3d(&column)[3]) {
+    Vec3d mean;
+    double volume = 0;
+    for (size_t t = 0; t < mesh->tets().size(); ++t) {
+      const auto& corners = mesh->tets()[t];
+      if (std::find(corners.begin(), corners.end(), center) == corners.end()) continue;
+      const auto edge = [&](size_t k) {
+        return bent(toDouble(mesh->points()[corners[k]])) - bent(toDouble(mesh->points()[corners[0]]));
+      };
+      const TetAtRest& rest = parts.tetsAtRest[t];
+      const Vec3d f = edge(1) * double{rest.gb.x} + edge(2) * double{rest.gc.x} + edge(3) * double{rest.gd.x};
+      mean = mean + f * double{rest.volume};
+      volume += double{rest.volume};
+    }
+    const Vec3d off = mean * (1 / volume) - column[0];
+    EXPECT_LT(dot(off, off), 1e-10);
+    EXPECT_NEAR(double{parts.starVolumes[center]}, volume / 4, 1e-7);
+  });
+}
+
+TEST(ClothMesh, HasNoStars) { EXPECT_TRUE(makeClothGrid(1, 1, 2, 2)->parts().starVolumes.empty()); }
 
 }  // namespace
 }  // namespace avbd

@@ -19,6 +19,7 @@
 #include "avbd/rows/cloth_bend.h"
 #include "avbd/rows/family.h"
 #include "avbd/rows/node_contact.h"
+#include "avbd/rows/star_elastic.h"
 #include "avbd/rows/tet_elastic.h"
 #include "avbd/rows/triangle_elastic.h"
 #include "lane/tile.h"
@@ -81,6 +82,22 @@ struct NodeTiles {
   Tile<Family>* tile = nullptr;
   const uint32_t* node[4] = {};
   Tile<Op>* op = nullptr;
+  uint32_t tiles = 0;
+};
+
+/// A point of a star but its centre: b_j (rows/star_elastic.h) and its body row.
+struct StarLink {
+  float x = 0, y = 0, z = 0;
+  uint32_t row = 0;
+};
+
+/// Stars of points of soft solids, in tiles of 16. Star i joins its centre to links begin[i] .. begin[i + 1] - 1.
+struct StarTiles {
+  Tile<rows::StarElastic>* tile = nullptr;
+  Tile<rows::SolidOp>* op = nullptr;
+  const uint32_t* center = nullptr;  ///< body rows
+  const uint32_t* begin = nullptr;
+  const StarLink* link = nullptr;
   uint32_t tiles = 0;
 };
 
@@ -152,6 +169,8 @@ struct BatchView {
   NodeTiles<rows::TetElastic, rows::ElasticOp> elastic;
   NodeTiles<rows::TriangleElastic, rows::TriangleOp> triangles;
   NodeTiles<rows::ClothBend, rows::BendOp> bends;
+  StarTiles stars;
+  bool threads = false;  ///< some of these dampen, are woven or have a limit
   NodeTiles<rows::NodeContact, rows::NodeContactOp> nodeContacts;
   ScalarJoints scalar;
   LinkedJoints linked;

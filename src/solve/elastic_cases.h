@@ -14,6 +14,7 @@ inline V3<float> toFloat3(Vec3d v) {
 inline Vec3d crossOf(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
 inline double& axisOf(Vec3d& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
+inline float& axisOf(V3<float>& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
 inline float axisOf(const V3<float>& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
 
 /// The places of a test's element, each moved by up to `size`, and directions to multiply.

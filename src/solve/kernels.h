@@ -80,6 +80,7 @@ AVBD_INLINE void prepareFull(FullContact<R>& c, const InverseMass& a, const Inve
 }  // namespace avbd::AVBD_LANES_NAMESPACE
 
 #include "solve/node_kernels.h"
+#include "solve/star_kernels.h"
 
 namespace avbd::AVBD_LANES_NAMESPACE {
 namespace {
@@ -104,6 +105,7 @@ void prepareOthers(const BatchView& v, const SolveSettings& s) {
     v.full.tile[t].store<N>(o, c);
   });
   prepareNodeContacts(v, factor);
+  prepareTriangles(v, factor);
 }
 
 // ---- Rows ------------------------------------------------------------------------------------------------------
@@ -214,7 +216,8 @@ void stampOthers(const BatchView& v, const SolveSettings& s, bool dual) {
   stampPairs<FixedJoint, true>(v, v.fixed, {0, v.fixed.tiles}, op, s.jointLeak, dual);
   stampFull(v, s.contactLeak, dual);
   stampTets(v, dual);
-  stampSofts(v);
+  stampSofts(v, dual);
+  stampStars(v, dual);
   stampNodeContacts(v, s.contactLeak, dual);
 }
 
@@ -227,6 +230,8 @@ void updateOthers(const BatchView& v, const SolveSettings& s) {
   dualPairs(v, v.fixed, {0, v.fixed.tiles}, 1);
   dualPairs(v, v.full, {0, v.full.tiles}, s.contactLeak);
   dualTets(v);
+  dualStars(v);
+  dualTriangles(v);
   dualNodeContacts(v, s.contactLeak);
 }
 
@@ -269,6 +274,7 @@ void multiplyOthers(const BatchView& v) {
   multiplyFull(v);
   multiplyElements(v, v.tets);
   multiplySofts(v);
+  multiplyStars(v);
 }
 
 }  // namespace

@@ -64,10 +64,10 @@ struct ElementStamp {
 AVBD_INLINE ElementStamp<ElasticOp<R>> stampOf(const TetElastic<R>& tet, const V3<R> (&d)[4]) {
   ElementStamp<ElasticOp<R>> stamp;
   const Deformation<R> s = tet.deformation(d);
-  tet.gradient(s, stamp.gradient);
   stamp.op = tet.op(s);
+  tet.gradient(s, stamp.op, stamp.gradient);
   const V3<R> g[4] = {-(tet.gb + tet.gc + tet.gd), tet.gb, tet.gc, tet.gd};
-  for (int i = 0; i < 4; ++i) stamp.block[i] = tet.block(s, g[i]);
+  for (int i = 0; i < 4; ++i) stamp.block[i] = solidBlock(stamp.op.solid, g[i]);
   return stamp;
 }
 
@@ -76,9 +76,9 @@ AVBD_INLINE ElementStamp<TriangleOp<R>> stampOf(const TriangleElastic<R>& triang
   const Stretch<R> s = triangle.stretch(d);
   triangle.gradient(s, stamp.gradient);
   stamp.op = triangle.op(s);
-  stamp.block[0] = triangle.block(s, -(triangle.bx + triangle.cx), -(triangle.by + triangle.cy));
-  stamp.block[1] = triangle.block(s, triangle.bx, triangle.by);
-  stamp.block[2] = triangle.block(s, triangle.cx, triangle.cy);
+  stamp.block[0] = triangleBlock(stamp.op, -(triangle.bx + triangle.cx), -(triangle.by + triangle.cy));
+  stamp.block[1] = triangleBlock(stamp.op, triangle.bx, triangle.by);
+  stamp.block[2] = triangleBlock(stamp.op, triangle.cx, triangle.cy);
   stamp.block[3] = diagonal(zeroV3<R>());
   return stamp;
 }
@@ -107,7 +107,36 @@ void stampElements(const BatchView& v, const NodeTiles<Family, Op>& all) {
   });
 }
 
-void stampSofts(const BatchView& v) {
+/// Tensions of limits of strain.
+void dualTriangles(const BatchView& v) {
+  const auto& all = v.triangles;
+  if (!v.threads) return;
+  forLanes({0, all.tiles}, [&](uint32_t t, int o) {
+    TriangleElastic<R> triangle = all.tile[t].load<N>(o);
+    V3<R> d[4];
+    gatherNodes(all.node, v.d, t * kTile + static_cast<uint32_t>(o), d);
+    triangle.tension = triangle.limitTension(triangle.stretch(d));
+    all.tile[t].store<N>(o, triangle);
+  });
+}
+
+void prepareTriangles(const BatchView& v, float factor) {
+  const auto& all = v.triangles;
+  if (!v.threads) return;
+  forLanes({0, all.tiles}, [&](uint32_t t, int o) {
+    const uint32_t at = t * kTile + static_cast<uint32_t>(o);
+    TriangleElastic<R> c = all.tile[t].load<N>(o);
+    const R x[3] = {-(c.bx + c.cx), c.bx, c.cx}, y[3] = {-(c.by + c.cy), c.by, c.cy};
+    R w = zero<R>();
+    for (int i = 0; i < 3; ++i)
+      w = w + (x[i] * x[i] + y[i] * y[i]) * gatherInverseMass(v.invMass, all.node[i] + at).linear;
+    c.floor = floorStiffness(c.floor, w * 0.5f, factor);
+    all.tile[t].store<N>(o, c);
+  });
+}
+
+void stampSofts(const BatchView& v, bool dual) {
+  if (dual) dualTriangles(v);
   stampElements(v, v.elastic);
   stampElements(v, v.triangles);
   stampElements(v, v.bends);
@@ -121,13 +150,14 @@ AVBD_INLINE void multiply(const NodeOp<R>& op, const V3<R> (&p)[4], V3<R> (&out)
   for (int i = 0; i < 4; ++i) out[i] = op.lin[i] * force;
 }
 
-template <template <class> class Family, template <class> class Op>
-void multiplyElements(const BatchView& v, const NodeTiles<Family, Op>& all) {
+/// threads: as in BatchView, for what may have them.
+template <template <class> class Family, template <class> class Op, class... Threads>
+void multiplyElements(const BatchView& v, const NodeTiles<Family, Op>& all, Threads... threads) {
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     V3<R> p[4], out[4];
     gatherNodes(all.node, v.p, at, p);
-    multiply(all.op[t].template load<N>(o), p, out);
+    multiply(all.op[t].template load<N>(o), threads..., p, out);
     scatterVectors<Family<R>::kBlocks>(v.q, all.node, at, out);
   });
 }
@@ -192,8 +222,8 @@ void multiplyNodeContacts(const BatchView& v) {
 }
 
 void multiplySofts(const BatchView& v) {
-  multiplyElements(v, v.elastic);
-  multiplyElements(v, v.triangles);
+  multiplyElements(v, v.elastic, v.threads);
+  multiplyElements(v, v.triangles, v.threads);
   multiplyElements(v, v.bends);
   multiplyNodeContacts(v);
 }

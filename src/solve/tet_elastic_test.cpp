@@ -37,7 +37,8 @@ struct Element {
             toFloat3(g[2]),
             toFloat3(g[3]),
             mu,
-            lambda};
+            lambda,
+            0};
   }
   /// By the formula, in double.
   double energy(const Points& x) const {
@@ -56,7 +57,8 @@ std::array<V, 4> gradientAt(const Element& e, const Points& x) {
   const V none[4] = {};
   V out[4];
   const TetElastic<float> rows = e.rows(x);
-  rows.gradient(rows.deformation(none), out);
+  const auto state = rows.deformation(none);
+  rows.gradient(state, rows.op(state), out);
   return {out[0], out[1], out[2], out[3]};
 }
 
@@ -94,7 +96,7 @@ TEST(TetElastic, ATurnCostsNothingAndItsHessianSaysSo) {
     spun[i] = toFloat3(crossOf({0.4, -1, 0.8}, x[i]));
   }
   for (const V& g : gradientAt(e, x)) EXPECT_NEAR(double{length(g)}, 0, 2e-5);
-  multiply(opAt(e, x), spun, out);
+  multiply(opAt(e, x), false, spun, out);
   for (const V& q : out) EXPECT_NEAR(double{length(q)}, 0, 2e-5);
 }
 
@@ -123,7 +125,7 @@ TEST(TetElastic, HessianIsTheDerivativeOfTheGradientInAStretchedBar) {
   for (const Points& at : {kRest, x}) {
     V p[4], out[4];
     draw(p);
-    multiply(opAt(e, at), p, out);
+    multiply(opAt(e, at), false, p, out);
     const auto expected = slope(e, at, p);
     for (size_t i = 0; i < 4; ++i) EXPECT_NEAR(double{length(out[i] - expected[i])}, 0, 0.02);
   }
@@ -136,7 +138,7 @@ TEST(TetElastic, HessianIsSymmetricAndNeverNegative) {
       const ElasticOp<float> op = opAt(e, moved(size));
       V p[4], r[4], hp[4], hr[4];
       draw(p), draw(r);
-      multiply(op, p, hp), multiply(op, r, hr);
+      multiply(op, true, p, hp), multiply(op, true, r, hr);
       double pHr = 0, rHp = 0, pHp = 0, scale = 0;
       for (size_t i = 0; i < 4; ++i) {
         pHr += double{dot(p[i], hr[i])}, rHp += double{dot(r[i], hp[i])}, pHp += double{dot(p[i], hp[i])};
@@ -154,14 +156,97 @@ TEST(TetElastic, BlocksAreThoseOfTheHessian) {
   const TetElastic<float> rows = e.rows(x);
   const auto state = rows.deformation(none);
   for (size_t i = 0; i < 4; ++i) {
-    const Sym3<float> block = rows.block(state, toFloat3(e.g[i]));
+    const Sym3<float> block = solidBlock(rows.op(state).solid, toFloat3(e.g[i]));
     for (int k = 0; k < 3; ++k) {
       V p[4] = {}, out[4];
       p[i] = {k == 0 ? 1.0f : 0, k == 1 ? 1.0f : 0, k == 2 ? 1.0f : 0};
-      multiply(opAt(e, x), p, out);
+      multiply(opAt(e, x), false, p, out);
       EXPECT_NEAR(double{length(out[i] - block * p[i])}, 0, 1e-4);
     }
   }
+}
+
+// ---- Viscosity ---------------------------------------------------------------------------------------------------
+
+constexpr float kDamping = 0.7f;
+
+/// A step from one place to another, by the displacements.
+struct Step {
+  TetElastic<float> rows;
+  V d[4];
+  Step(const Element& e, const Points& from, const Points& to) : rows(e.rows(from)) {
+    rows.damping = kDamping;
+    for (size_t i = 0; i < 4; ++i) d[i] = toFloat3(to[i] - from[i]);
+  }
+  std::array<V, 4> gradient() const {
+    V out[4];
+    const auto state = rows.deformation(d);
+    rows.gradient(state, rows.op(state), out);
+    return {out[0], out[1], out[2], out[3]};
+  }
+};
+
+/// Green's strain, twice it and plus I, at some points: of the element's linear deformation.
+std::array<std::array<double, 3>, 3> squaresAt(const Element& e, const Points& x) {
+  Vec3d f[3];
+  for (size_t i = 0; i < 4; ++i)
+    f[0] = f[0] + x[i] * e.g[i].x, f[1] = f[1] + x[i] * e.g[i].y, f[2] = f[2] + x[i] * e.g[i].z;
+  std::array<std::array<double, 3>, 3> c;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t k = 0; k < 3; ++k) c[i][k] = dot(f[i], f[k]);
+  return c;
+}
+
+/// By the formula of solid.h.
+double dissipated(const Element& e, const Points& from, const Points& to) {
+  const auto a = squaresAt(e, from), b = squaresAt(e, to);
+  double squares = 0, trace = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    trace += b[i][i] - a[i][i];
+    for (size_t k = 0; k < 3; ++k) squares += (b[i][k] - a[i][k]) * (b[i][k] - a[i][k]);
+  }
+  const double eta = double{kDamping} * double{e.mu}, zeta = double{kDamping} * double{e.lambda - e.mu};
+  return eta / 4 * squares + zeta / 8 * trace * trace;
+}
+
+TEST(TetElastic, ViscousForceIsTheDerivativeOfWhatTheStepDissipates) {
+  const Element e;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Points from = moved(0.2), to = moved(0.2);
+    const auto gradient = Step(e, from, to).gradient();
+    for (size_t i = 0; i < 4; ++i)
+      for (int k = 0; k < 3; ++k) {
+        Points up = to, down = to;
+        axisOf(up[i], k) += 1e-5, axisOf(down[i], k) -= 1e-5;
+        const double slope =
+            (e.energy(up) - e.energy(down) + dissipated(e, from, up) - dissipated(e, from, down)) / 2e-5;
+        EXPECT_NEAR(double{axisOf(gradient[i], k)}, slope, 1e-3);
+      }
+  }
+}
+
+TEST(TetElastic, ViscosityDoesNotHinderATurn) {
+  const Quat turn = Quat{0.5f, 0.5f, -0.5f, 0.5f};
+  Points x;
+  for (size_t i = 0; i < 4; ++i) x[i] = rotate(turn, kRest[i]);
+  for (const V& g : Step(Element(), kRest, x).gradient()) EXPECT_NEAR(double{length(g)}, 0, 5e-5);
+}
+
+TEST(TetElastic, ViscousHessianIsTheDerivativeOfTheForceAndItsBlocksAreThere) {
+  const Element e;
+  Step step(e, kRest, kRest);
+  const auto state = step.rows.deformation(step.d);
+  for (size_t i = 0; i < 4; ++i)
+    for (int k = 0; k < 3; ++k) {
+      V p[4] = {}, out[4];
+      p[i] = {k == 0 ? 1.0f : 0, k == 1 ? 1.0f : 0, k == 2 ? 1.0f : 0};
+      multiply(step.rows.op(state), true, p, out);
+      EXPECT_NEAR(double{length(out[i] - solidBlock(step.rows.op(state).solid, toFloat3(e.g[i])) * p[i])}, 0, 1e-4);
+      Points up = kRest, down = kRest;
+      axisOf(up[i], k) += 1e-3, axisOf(down[i], k) -= 1e-3;
+      const auto a = Step(e, kRest, up).gradient(), b = Step(e, kRest, down).gradient();
+      for (size_t n = 0; n < 4; ++n) EXPECT_NEAR(double{length(out[n] - (a[n] - b[n]) * 500.0f)}, 0, 0.03);
+    }
 }
 
 template <int N>

@@ -260,6 +260,7 @@ void publish(WorldData& world, StepData& step) {
   world.treeBehind = true;
   publishContacts(world, step);
   publishSoftTouches(world, step);
+  publishElements(world, step);
   publishBodies(world, step);
   publishJoints(world, step);
   if (step.substep + 1 == world.def.substeps) publishEvents(world, step);

@@ -1,7 +1,9 @@
 // Layout of the batches.
 #include <algorithm>
 
+#include "geom/soft_mesh_parts.h"
 #include "step/begin_chunks.h"
+#include "world/soft.h"
 #include "world/soft_touch.h"
 
 namespace avbd {
@@ -18,6 +20,7 @@ void clearLanes(StepData& step) {
   for (auto* lanes : {step.elasticRow, step.triangleRow, step.bendRow})
     for (int i = 0; i < 4; ++i) lanes[i].clear();
   step.elements.clear(), step.triangles.clear(), step.hinges.clear();
+  step.stars.clear(), step.starCenter.clear(), step.starLinks.clear(), step.starBegin.assign(1, 0);
   for (auto& lanes : step.touchRow) lanes.clear();
   step.touchLane.clear();
   step.fullPair.clear(), step.scalar.clear(), step.linked.clear();
@@ -108,6 +111,38 @@ Slice addElements(const WorldData& world, StepData& step, const BatchRange& batc
   return {begin, static_cast<uint32_t>(elements.size()) / kTile};
 }
 
+/// Stars of a soft solid.
+void addStars(StepData& step, uint32_t slot, const SoftData& soft) {
+  const SoftMeshData::Parts& mesh = soft.mesh->parts();
+  const auto row = [&](uint32_t point) { return step.rowOf[soft.bodies[point]]; };
+  for (uint32_t center = 0; center < mesh.starVolumes.size(); ++center) {
+    step.stars.push_back({slot, center});
+    step.starCenter.push_back(row(center));
+    for (uint32_t i = mesh.starBegin[center]; i < mesh.starBegin[center + 1]; ++i) {
+      const StarPoint& star = mesh.starPoints[i];
+      step.starLinks.push_back({star.gradient.x, star.gradient.y, star.gradient.z, row(star.point)});
+    }
+    step.starBegin.push_back(static_cast<uint32_t>(step.starLinks.size()));
+  }
+}
+
+void addStars(const WorldData& world, StepData& step, BatchRange& batch) {
+  batch.starTile = static_cast<uint32_t>(step.stars.size()) / kTile;
+  for (uint32_t n = 0; n < batch.islandCount; ++n) {
+    const Island& island = step.islands[batch.islandBegin + n];
+    for (uint32_t k = island.softBegin; k < island.softBegin + island.softCount; ++k) {
+      const SoftData& soft = world.softs[step.islandSofts[k]];
+      const SoftMaterial& material = soft.material;
+      if (material.damping > step.h || isWoven(material) || material.maxStrain >= 0) batch.threads = true;
+      if (!soft.mesh->isCloth()) addStars(step, step.islandSofts[k], soft);
+    }
+  }
+  step.stars.resize(roundUp(static_cast<uint32_t>(step.stars.size())));
+  padLanes(step.starCenter, batch.bodies);
+  step.starBegin.resize(step.stars.size() + 1, static_cast<uint32_t>(step.starLinks.size()));
+  batch.starTiles = static_cast<uint32_t>(step.stars.size()) / kTile - batch.starTile;
+}
+
 void addSofts(const WorldData& world, StepData& step, BatchRange& batch) {
   const Slice tets = addElements<4>(world, step, batch, step.elements, step.elasticRow,
                                     [](const SoftMeshData& mesh) { return mesh.tets(); });
@@ -118,6 +153,7 @@ void addSofts(const WorldData& world, StepData& step, BatchRange& batch) {
   batch.elasticTile = tets.begin, batch.elasticTiles = tets.end - tets.begin;
   batch.triangleTile = triangles.begin, batch.triangleTiles = triangles.end - triangles.begin;
   batch.bendTile = hinges.begin, batch.bendTiles = hinges.end - hinges.begin;
+  addStars(world, step, batch);
 }
 
 void addTouches(const WorldData& world, StepData& step, BatchRange& batch) {
@@ -184,6 +220,7 @@ void resizeTiles(StepData& step) {
   makeRoom(step.triangleTiles, triangles), makeRoom(step.triangleOp, triangles);
   makeRoom(step.bendTiles, hinges), makeRoom(step.bendOp, hinges);
   makeRoom(step.elastic, elements), makeRoom(step.elasticOp, elements);
+  makeRoom(step.starTiles, step.stars.size() / kTile), makeRoom(step.starOp, step.stars.size() / kTile);
   makeRoom(step.op, contacts + balls + fixed + scalars), makeRoom(step.tetOp, tets), makeRoom(step.fullOp, full);
 }
 
@@ -289,6 +326,10 @@ BatchView StepData::view(size_t index) {
   nodes(v.elastic, elastic, elasticOp, elasticRow, b.elasticTile, b.elasticTiles);
   nodes(v.triangles, triangleTiles, triangleOp, triangleRow, b.triangleTile, b.triangleTiles);
   nodes(v.bends, bendTiles, bendOp, bendRow, b.bendTile, b.bendTiles);
+  const size_t star = size_t(b.starTile) * kTile;
+  v.stars = {starTiles.data() + b.starTile, starOp.data() + b.starTile, starCenter.data() + star,
+             starBegin.data() + star,       starLinks.data(),           b.starTiles};
+  v.threads = b.threads;
   nodes(v.nodeContacts, touchTiles, touchOp, touchRow, b.touchTile, b.touchTiles);
   v.locked = lockedRows.data() + b.lockedBegin, v.locks = locks.data() + b.lockedBegin;
   v.lockedCount = b.lockedCount;

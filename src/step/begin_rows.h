@@ -47,6 +47,7 @@ void fillJoints(const WorldData& world, StepData& step);
 /// Of soft bodies: d and deform.
 void predictSofts(const WorldData& world, StepData& step);
 void fillElements(const WorldData& world, StepData& step);
+void publishElements(WorldData& world, const StepData& step);  ///< what they remember; 90_publish
 void fillScalarJoints(const WorldData& world, StepData& step);
 /// Acceleration drives of trees, after the scalar joints: by the inertia of all that hangs on them.
 void weighAccelerationDrives(const WorldData& world, StepData& step);

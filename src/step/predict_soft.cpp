@@ -18,6 +18,8 @@ constexpr float kFalling = 0.1f;  ///< of gravity: so near to it is the accelera
 bool fallsFreely(const WorldData& world, const SoftData& soft) {
   for (const uint32_t slot : soft.bodies) {
     const BodyData& body = world.bodies[slot];
+    // A particle is light: alone, what pulls it would take it far out of the body.
+    if (dot(body.force, body.force) > 0) return false;
     const Vec3 gravity = world.def.gravity * body.gravityScale, off = body.acceleration - gravity;
     if (dot(off, off) > kFalling * kFalling * dot(gravity, gravity)) return false;
   }

@@ -91,12 +91,17 @@ void rememberAwake(const WorldData& world, StepData& step) {
   step.wokenIslands.clear();
   if (world.def.substeps == 1) return;
   step.softTouchesBefore = world.softTouches;
+  step.softMemoryBefore.resize(world.softs.size());
+  for (size_t i = 0; i < world.softs.size(); ++i) step.softMemoryBefore[i] = world.softs[i].memory;
   for (const uint32_t slot : world.sleep.awake) step.bodiesBefore.save(slot, world.bodies[slot]);
   for (const uint32_t slot : world.sleep.joints) saveJoint(world, step, slot);
 }
 
 void restoreAwake(WorldData& world, StepData& step) {
-  if (world.def.substeps > 1) world.softTouches = step.softTouchesBefore;
+  if (world.def.substeps > 1) {
+    world.softTouches = step.softTouchesBefore;
+    for (size_t i = 0; i < world.softs.size(); ++i) world.softs[i].memory = step.softMemoryBefore[i];
+  }
   step.bodiesBefore.restore(world.bodies);
   step.jointsBefore.restore(world.joints);
   step.d6Before.restore(world.d6);

@@ -46,6 +46,8 @@ struct BatchRange {
   uint32_t touchTile = 0, touchTiles = 0;
   uint32_t triangleTile = 0, triangleTiles = 0;
   uint32_t bendTile = 0, bendTiles = 0;
+  uint32_t starTile = 0, starTiles = 0;
+  bool threads = false;  ///< as in BatchView
   bool hasElements() const { return elasticTiles + triangleTiles > 0; }
   uint32_t fullTile = 0, fullTiles = 0;
   uint32_t scalarTile = 0, scalarTiles = 0, scalarCount = 0;
@@ -277,6 +279,7 @@ struct StepData {
   SoftSurfaces softs;
   std::vector<FoundTouch> softTouches;       ///< ascending
   std::vector<SoftTouch> softTouchesBefore;  ///< of the step before, where substeps may fail
+  std::vector<SoftMemory> softMemoryBefore;  ///< likewise, by slot
 
   std::vector<uint32_t> wokenIslands;  ///< in SleepData::islands: what a contact woke in this step
   std::vector<uint32_t> wokenPairs;    ///< indices of the first entries of their pairs
@@ -344,7 +347,7 @@ struct StepData {
   struct Element {
     uint32_t soft = kNone, index = 0;
   };
-  std::vector<Element> elements, triangles, hinges;
+  std::vector<Element> elements, triangles, hinges, stars;
   std::vector<uint32_t> elasticRow[4], triangleRow[4], bendRow[4];
   UnwrittenVector<Tile<rows::TriangleElastic>> triangleTiles;
   UnwrittenVector<Tile<rows::TriangleOp>> triangleOp;
@@ -356,6 +359,10 @@ struct StepData {
   UnwrittenVector<Tile<rows::NodeContactOp>> touchOp;
   UnwrittenVector<Tile<rows::TetElastic>> elastic;
   UnwrittenVector<Tile<rows::ElasticOp>> elasticOp;
+  std::vector<uint32_t> starCenter, starBegin;  ///< by star, as in StarTiles
+  std::vector<StarLink> starLinks;
+  UnwrittenVector<Tile<rows::StarElastic>> starTiles;
+  UnwrittenVector<Tile<rows::SolidOp>> starOp;
   std::vector<uint32_t> fullPair;  ///< by lane, as contactPair
   UnwrittenVector<Tile<NodeOp>> tetOp;
   UnwrittenVector<Tile<ScaledOp>> fullOp;

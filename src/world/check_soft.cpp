@@ -10,7 +10,19 @@ namespace avbd {
 
 namespace {
 
-constexpr double kMaxModulus = 1e13, kLeastPoisson = -0.9, kMostPoisson = 0.499;
+constexpr double kMaxModulus = 1e13, kLeastPoisson = -0.9, kMostPoisson = 0.4999;
+constexpr double kMaxDamping = 1e6, kMaxStrain = 100, kMaxWarp = 1e6;
+constexpr float kMinWarp = 1e-6f;
+
+void checkThreads(const Path& path, const SoftMaterial& material) {
+  if (!(material.weftModulus < 0)) check(path / "weftModulus", material.weftModulus, positive(kMaxModulus));
+  if (!(material.shearModulus < 0)) check(path / "shearModulus", material.shearModulus, positive(kMaxModulus));
+  check(path / "warp", material.warp, symmetric(kMaxWarp));
+  if (isWoven(material) && !(dot(material.warp, material.warp) > kMinWarp * kMinWarp))
+    (path / "warp")
+        .refuse(toText(material.warp),
+                "must be longer than " + toText(kMinWarp) + " where weftModulus or shearModulus is given");
+}
 
 void checkSoftMaterial(const Path& path, const SoftMaterial& material, float unit) {
   check(path / "youngsModulus", material.youngsModulus, positive(kMaxModulus));
@@ -18,6 +30,9 @@ void checkSoftMaterial(const Path& path, const SoftMaterial& material, float uni
   check(path / "density", material.density, positive(kMaxDensity));
   check(path / "thickness", material.thickness, Range{kMinSize * unit, kMaxSize * unit});
   check(path / "bending", material.bending, symmetric(kMaxModulus));
+  check(path / "damping", material.damping, notNegative(kMaxDamping));
+  if (!(material.maxStrain < 0)) check(path / "maxStrain", material.maxStrain, positive(kMaxStrain));
+  checkThreads(path, material);
 }
 
 /// What each particle will be: a body in the range that the solver can work with.

@@ -3,16 +3,19 @@
 
 #include "geom/soft_mesh_parts.h"
 #include "world/snapshot_parts.h"
+#include "world/soft.h"
 
 namespace avbd::snapshot {
 namespace {
 
-/// All members by name but mesh and bodies, which are coded below.
+/// All members by name but mesh, bodies and memory, which are coded below.
 template <class Codec, class Soft>
 void codeNumbers(Codec& codec, Soft& soft) {
-  auto& [mesh, material, radius, selfContact, bodies, userData] = soft;
+  auto& [mesh, material, radius, selfContact, bodies, userData, memory] = soft;
   codec.put(material.youngsModulus), codec.put(material.poissonRatio), codec.put(material.density);
-  codec.put(material.thickness), codec.put(material.bending);
+  codec.put(material.thickness), codec.put(material.bending), codec.put(material.damping);
+  codec.put(material.maxStrain), codec.put(material.warp);
+  codec.put(material.weftModulus), codec.put(material.shearModulus);
   codec.put(radius), codec.put(selfContact), codec.put(userData);
 }
 
@@ -64,7 +67,7 @@ void codeSofts(Writer& out, const WorldData& data, SharedTable& table) {
     const SoftData& soft = data.softs[slot];
     out.put(table.number(soft.mesh));
     codeNumbers(out, soft);
-    list(out, soft.bodies);
+    list(out, soft.bodies), list(out, soft.memory.pressures), list(out, soft.memory.tensions);
   });
   recordList(out, data.softTouches);
 }
@@ -79,7 +82,9 @@ void codeSofts(Reader& in, WorldData& data, const KnownThings& things) {
     codeNumbers(in, soft);
     require(soft.material.youngsModulus > 0 && soft.material.poissonRatio < 0.5f && soft.material.poissonRatio > -1,
             "a soft body's material");
-    list(in, soft.bodies);
+    list(in, soft.bodies), list(in, soft.memory.pressures), list(in, soft.memory.tensions);
+    require(soft.memory.pressures.size() == pressuresOf(*soft.mesh, soft.material), "a soft body's pressures");
+    require(soft.memory.tensions.size() == tensionsOf(*soft.mesh, soft.material), "a soft body's tensions");
   });
   checkParticles(data);
   recordList(in, data.softTouches);

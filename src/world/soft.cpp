@@ -1,6 +1,8 @@
 // Soft bodies between steps (soft.h).
 #include "world/soft.h"
 
+#include <algorithm>
+
 #include "geom/soft_mesh_parts.h"
 #include "world/bodies.h"
 #include "world/check.h"
@@ -52,7 +54,9 @@ uint32_t addSoft(WorldData& data, const SoftDef& def) {
   const uint32_t slot = data.softIds.slot(data.softIds.create());
   if (slot >= data.softs.size()) data.softs.resize(slot + 1);
   SoftData& soft = data.softs[slot];
-  soft = {def.mesh, def.material, def.radius, def.selfContact, {}, def.userData};
+  soft = {def.mesh, def.material, def.radius, def.selfContact, {}, def.userData, {}};
+  soft.memory.pressures.assign(pressuresOf(*def.mesh, def.material), 0);
+  soft.memory.tensions.assign(tensionsOf(*def.mesh, def.material), {});
   const SoftMeshData& mesh = *def.mesh;
   const std::vector<float> masses = softMasses(mesh, def.material);
   std::vector<uint8_t> outside(mesh.points().size());
@@ -89,16 +93,67 @@ double volumeOf(const WorldData& data, const SoftData& soft) {
   return six / 6;
 }
 
-Elasticity elasticityOf(const SoftMaterial& material) {
+namespace {
+
+struct Lame {
+  double mu, lambda;  ///< [Pa]
+};
+
+Lame lameOf(const SoftMaterial& material) {
   const double e = double{material.youngsModulus}, nu = double{material.poissonRatio};
-  const double mu = e / (2 * (1 + nu)), lambda = e * nu / ((1 + nu) * (1 - 2 * nu));
-  return {static_cast<float>(mu), static_cast<float>(lambda + mu)};
+  return {e / (2 * (1 + nu)), e * nu / ((1 + nu) * (1 - 2 * nu))};
 }
 
-Elasticity sheetOf(const SoftMaterial& material) {
-  const double e = double{material.youngsModulus} * double{material.thickness}, nu = double{material.poissonRatio};
-  const double mu = e / (2 * (1 + nu)), lambda = e * nu / (1 - nu * nu);
-  return {static_cast<float>(mu), static_cast<float>(lambda + mu)};
+/// Of mu and lambda, the part that tetrahedra carry: with a quarter the sag of beams is nearest to theory, in meshes of
+/// five and of six tetrahedra a cell. What can hardly be compressed is locked by less of them.
+double tetShare(double nu) { return 0.125 * (1 + std::min(1.0, 5 * (1 - 2 * nu))); }
+
+constexpr double kMostLambda = 30;  ///< of mu: with more than that pressures are augmented
+constexpr double kAugmented = 20;   ///< of mu: the stiffness in use then
+constexpr double kTetLambda = 2;    ///< of mu: at most, of tetrahedra, which more would lock
+
+/// So hard to compress that its pressures are augmented.
+bool isAugmented(const SoftMaterial& material) {
+  const Lame lame = lameOf(material);
+  return lame.lambda > kMostLambda * lame.mu;
+}
+
+}  // namespace
+
+size_t pressuresOf(const SoftMeshData& mesh, const SoftMaterial& material) {
+  return !mesh.isCloth() && isAugmented(material) ? mesh.points().size() : 0;
+}
+
+size_t tensionsOf(const SoftMeshData& mesh, const SoftMaterial& material) {
+  return material.maxStrain >= 0 ? mesh.triangles().size() : 0;
+}
+
+Elasticity elasticityOf(const SoftMaterial& material) {
+  const auto [mu, lambda] = lameOf(material);
+  const double share = tetShare(double{material.poissonRatio});
+  const double tetMu = share * mu, tetLambda = share * std::min(lambda, kTetLambda * mu);
+  const double starMu = mu - tetMu, whole = lambda - tetLambda + starMu, used = kAugmented * mu;
+  const bool augmented = isAugmented(material);
+  return {static_cast<float>(tetMu), static_cast<float>(tetLambda + tetMu), static_cast<float>(starMu),
+          static_cast<float>(augmented ? whole * used / (whole + used) : whole),
+          static_cast<float>(augmented ? whole / (whole + used) : 0)};
+}
+
+/// Of an orthotropic sheet, nu the contraction of its softer way by the stiffer; so much of it as is the same all ways
+/// is the sheet, and what is left of each way its threads.
+SheetElasticity sheetOf(const SoftMaterial& material) {
+  const double nu = double{material.poissonRatio}, thickness = double{material.thickness};
+  const double warp = double{material.youngsModulus} * thickness;
+  const double weft = material.weftModulus >= 0 ? double{material.weftModulus} * thickness : warp;
+  const double least = std::min(warp, weft), most = std::max(warp, weft), part = 1 - nu * nu * least / most;
+  const double shear = material.shearModulus >= 0 ? double{material.shearModulus} * thickness : least / (2 * (1 + nu));
+  const double lambda = nu * least / part, mu = std::min(shear, (1 - nu) * least / (2 * part));
+  SheetElasticity sheet{static_cast<float>(mu), static_cast<float>(lambda + mu), 0, 0, 0};
+  if (!isWoven(material)) return sheet;
+  sheet.warp = static_cast<float>(warp / part - lambda - 2 * mu);
+  sheet.weft = static_cast<float>(weft / part - lambda - 2 * mu);
+  sheet.shear = static_cast<float>(shear - mu);
+  return sheet;
 }
 
 float bendingOf(const SoftMaterial& material) {

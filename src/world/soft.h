@@ -15,14 +15,24 @@ std::vector<float> softMasses(const SoftMeshData& mesh, const SoftMaterial& mate
 inline float particleInertia(float mass, float radius) { return 0.4f * mass * radius * radius; }
 double volumeOf(const WorldData& data, const SoftData& soft);  ///< [m^3] now
 
-/// Lame's parameters as the energy takes them (rows/tet_elastic.h) [Pa].
+/// Lame's parameters as the energies of a tetrahedron and of a star take them (rows/solid.h) [Pa].
 struct Elasticity {
-  float mu, lambda;
+  float tetMu, tetLambda;
+  float starMu, starLambda, starShare;
 };
 Elasticity elasticityOf(const SoftMaterial& material);
+/// Not the same all ways.
+inline bool isWoven(const SoftMaterial& material) { return material.weftModulus >= 0 || material.shearModulus >= 0; }
+// How many of each a soft body remembers (SoftMemory).
+size_t pressuresOf(const SoftMeshData& mesh, const SoftMaterial& material);
+size_t tensionsOf(const SoftMeshData& mesh, const SoftMaterial& material);
 
-/// The same of cloth: times its thickness [N/m], by plane stress.
-Elasticity sheetOf(const SoftMaterial& material);
+/// As the energy of a triangle takes them: times the thickness [N/m], by plane stress.
+struct SheetElasticity {
+  float mu, lambda;
+  float warp, weft, shear;  ///< beyond that; 0 where it is not woven
+};
+SheetElasticity sheetOf(const SoftMaterial& material);
 float bendingOf(const SoftMaterial& material);  ///< [N m]
 
 /// Nothing of it moves: its particles rest together or not at all.

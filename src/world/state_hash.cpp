@@ -127,6 +127,10 @@ uint64_t stateHash(const WorldData& data) {
   });
   forEachPair(data, [&](const PairData& pair) { add(hash, pair); });
   for (const SoftTouch& touch : data.softTouches) add(hash, touch);
+  data.softIds.forEach([&](uint32_t slot) {
+    hash.values(data.softs[slot].memory.pressures);
+    hash.values(data.softs[slot].memory.tensions);
+  });
   return hash.digest();
 }
 

@@ -125,6 +125,12 @@ struct LinkData {
   std::vector<float> constants, memory;
 };
 
+/// What a soft body remembers of the last substep.
+struct SoftMemory {
+  std::vector<float> pressures;  ///< by point, times the volume of its star [J]; empty: none is augmented
+  std::vector<Vec3> tensions;    ///< by triangle: of its limit of strain, warp, weft and shear [J]; empty: it has none
+};
+
 struct SoftData {
   std::shared_ptr<const SoftMeshData> mesh;
   SoftMaterial material;
@@ -132,6 +138,7 @@ struct SoftData {
   bool selfContact = true;
   std::vector<uint32_t> bodies;  ///< slots, by point of the mesh
   uint64_t userData = 0;
+  SoftMemory memory;
 };
 
 /// What touches what, the first behind the second.
