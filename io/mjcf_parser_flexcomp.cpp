@@ -3,10 +3,10 @@
 #include <cmath>
 #include <fstream>
 
-#include "io/soft_mesh_file.h"
 #include "io/mesh_file_parts.h"
 #include "io/mjcf_parser.h"
 #include "io/mjcf_schema.h"
+#include "io/soft_mesh_file.h"
 
 namespace avbd::mjcf {
 

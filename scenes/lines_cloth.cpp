@@ -35,7 +35,7 @@ const SoftMaterial kCanvas{.youngsModulus = 2e7f, .poissonRatio = 0, .density = 
 Figure rope(const Settings& settings) {
   World world(apply(settings, {}));
   const auto strip = makeClothGrid(0.5f, 0.01f, 50, 1);
-  const SoftId id = world.create(SoftDef{.mesh = strip, .material = kCanvas});
+  const SoftId id = world.create(SoftDef{.mesh = strip, .material = kCanvas, .radius = 0.002f});
   const std::vector<BodyId> beads = world.particles(id);
   for (size_t i = 0; i < beads.size(); ++i) {
     const Vec3 p = strip->points()[i];

@@ -10,7 +10,7 @@ namespace avbd::scenes {
 namespace {
 
 std::vector<Figure> mixed(const Settings& settings) {
-  constexpr int kSteps = 900, kWatched = 30;
+  constexpr int kSteps = 450, kWatched = 30;
   Settings with = settings;
   if (!with.sleep) with.sleep = true;
   Build build("mixed", with);

@@ -38,7 +38,8 @@ struct SoftDef {
   float radius = 0.01f;  ///< [m] > 0: points of the surface touch as balls of this radius
   Material surface{};    ///< friction of those
   Filter filter{};
-  bool selfContact = true;  ///< parts of it do not pass through each other
+  /// Parts of it do not pass through each other; of a solid unless its surface already does.
+  bool selfContact = true;
   bool canSleep = true;
   uint64_t userData = 0;
 };

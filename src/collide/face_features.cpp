@@ -42,7 +42,7 @@ NearestOnEdges nearestOnEdges(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 
 namespace {
 
-constexpr int kMostAdvances = 64;
+constexpr int kMostAdvances = 512;
 constexpr float kAdvance = 0.9f;  ///< share of the distance that is gone at once
 
 float lengthOf(Vec3 v) { return rows::sqrt(dot(v, v)); }

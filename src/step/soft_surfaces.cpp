@@ -221,7 +221,7 @@ namespace {
 void nearFace(const WorldData& world, SoftSurfaces& s, uint32_t slot, uint32_t face) {
   const SoftPlace& place = s.places[slot];
   world.softIds.forEach([&](uint32_t other) {
-    if (other == slot && !world.softs[slot].selfContact) return;
+    if (other == slot && (!world.softs[slot].selfContact || place.tangled)) return;
     const PlaceShift shift = shiftOf(s.places[other], place);
     const Vec3 lower = shift.start + least({}, shift.drift), upper = shift.start + most({}, shift.drift);
     const Aabb box{place.faces[face].lower + lower, place.faces[face].upper + upper};
@@ -262,6 +262,43 @@ void takeShares(const WorldData& world, StepData& step, const std::vector<std::a
   s.near.erase(std::unique(s.near.begin(), s.near.end()), s.near.end());
 }
 
+namespace {
+
+float volumeOf(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return dot(cross(b - a, c - a), d - a); }
+
+bool passesThrough(const SoftPlace& place, uint32_t from, uint32_t to, const FaceTree::Face& face) {
+  if (from == face[0] || from == face[1] || from == face[2] || to == face[0] || to == face[1] || to == face[2])
+    return false;
+  const Vec3 p = place.points[from], q = place.points[to];
+  const Vec3 a = place.points[face[0]], b = place.points[face[1]], c = place.points[face[2]];
+  if ((volumeOf(a, b, c, p) > 0) == (volumeOf(a, b, c, q) > 0)) return false;
+  const float u = volumeOf(p, q, a, b), v = volumeOf(p, q, b, c), w = volumeOf(p, q, c, a);
+  return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
+}
+
+/// A solid is flat or inside out as a whole.
+bool isInsideOut(const SoftMeshData& mesh, const SoftPlace& place) {
+  float volume = 0;
+  for (const auto& t : mesh.tets())
+    volume += volumeOf(place.points[t[0]], place.points[t[1]], place.points[t[2]], place.points[t[3]]);
+  return !(volume > 0);
+}
+
+/// The surface of a solid passes through itself as the step begins, as it does after its points were set so: then it
+/// has to come back before it can touch itself.
+bool isTangled(const SoftMeshData& mesh, const SoftPlace& place, std::span<const NearFaces> near) {
+  if (isInsideOut(mesh, place)) return true;
+  const auto faces = mesh.surface();
+  for (const NearFaces& pair : near)
+    for (const auto& [through, face] :
+         {std::pair{faces[pair.faceA], faces[pair.faceB]}, std::pair{faces[pair.faceB], faces[pair.faceA]}})
+      for (size_t k = 0; k < 3; ++k)
+        if (passesThrough(place, through[k], through[(k + 1) % 3], face)) return true;
+  return false;
+}
+
+}  // namespace
+
 void findNearFaces(const WorldData& world, SoftSurfaces& s) {
   sweep(world, s);
   s.near.clear();
@@ -278,8 +315,12 @@ void findNearFaces(const WorldData& world, SoftSurfaces& s) {
   world.softIds.forEach([&](uint32_t slot) {
     const SoftData& soft = world.softs[slot];
     if (!soft.selfContact || isAsleep(world, soft)) return;
-    findFlat(*soft.mesh, s.flatness, s.places[slot]);
-    nearWithin(soft, s.places[slot], slot, s.near);
+    SoftPlace& place = s.places[slot];
+    const size_t before = s.near.size();
+    findFlat(*soft.mesh, s.flatness, place);
+    nearWithin(soft, place, slot, s.near);
+    place.tangled = !soft.mesh->isCloth() && isTangled(*soft.mesh, place, std::span(s.near).subspan(before));
+    if (place.tangled) s.near.resize(before);
   });
 }
 

@@ -27,6 +27,7 @@ struct SoftPlace {
   /// All that faces, points and edges pass over but for the drift, grown by half of what is near.
   std::vector<Aabb> faces, pointBoxes, edgeBoxes;
   std::vector<Aabb> bounds;  ///< of the tree's nodes
+  bool tangled = false;      ///< its surface passes through itself
   float fastest = 0;         ///< [m] of the ways with the drift
 };
 

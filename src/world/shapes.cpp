@@ -115,9 +115,8 @@ void removeShape(WorldData& data, uint32_t slot) {
   ShapeData& shape = data.shapes[slot];
   const uint32_t body = shape.body;
   unmarkUnpaired(data, slot);
-  std::erase_if(data.softTouches, [&](const SoftTouch& touch) {
-    return touch.kind == TouchKind::ShapeFace && touch.first == slot;
-  });
+  std::erase_if(data.softTouches,
+                [&](const SoftTouch& touch) { return touch.kind == TouchKind::ShapeFace && touch.first == slot; });
   data.hookedShapes -= shape.contactHook;
   data.tree.remove(shape.proxy);
   uint32_t* link = &data.bodies[body].firstShape;

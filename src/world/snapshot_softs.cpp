@@ -52,8 +52,7 @@ void checkTouches(const WorldData& data) {
     require(touch.kind <= TouchKind::ShapeFace && data.softIds.isAliveSlot(touch.second) &&
                 (ofShape ? data.shapeIds.isAliveSlot(touch.first) : data.softIds.isAliveSlot(touch.first)),
             "a touch of soft bodies that there are not");
-    require(touch.secondPart < partsOf(data, touch, true) &&
-                (ofShape || touch.firstPart < partsOf(data, touch, false)),
+    require(touch.secondPart < partsOf(data, touch, true) && (ofShape || touch.firstPart < partsOf(data, touch, false)),
             "a touch of no point, edge or face");
     require(!before || *before < touch, "the order of touches");
     before = &touch;
