@@ -179,7 +179,6 @@ SoftMaterial Builder::materialOf(const Flex& flex, const SoftMeshData& mesh, dou
     young = stress / kTrace;
     notes_.add(flex.where, "has no elasticity against stretching: hardly anything holds its points together", "flex");
   }
-  if (flex.touchesItself) notes_.add(flex.where, "selfcollide: a soft body does not touch itself", "flex");
   SoftMaterial out{.youngsModulus = f(young),
                    .poissonRatio = f(std::min(flex.poisson, 0.499)),
                    .density = f(mass / (size * thickness))};
