@@ -302,7 +302,8 @@ bool isTangled(const SoftMeshData& mesh, const SoftPlace& place, std::span<const
 void findNearFaces(const WorldData& world, SoftSurfaces& s) {
   sweep(world, s);
   s.near.clear();
-  for (const auto& [a, b] : s.pairs) {
+  for (const std::array<uint32_t, 2>& pair : s.pairs) {
+    const uint32_t a = pair[0], b = pair[1];
     const SoftData &softA = world.softs[a], &softB = world.softs[b];
     const PlaceShift shift = shiftOf(s.places[a], s.places[b]);
     const Vec3 lower = shift.start + least({}, shift.drift), upper = shift.start + most({}, shift.drift);
