@@ -6,25 +6,13 @@
 
 #include "io/mjcf.h"
 #include "io/mjcf_build.h"
+#include "io/mjcf_cases.h"
 
 namespace avbd {
 namespace {
 
 Model readWorld(const std::string& inside) {
   return readMjcfText("<mujoco><worldbody>" + inside + "</worldbody></mujoco>", "t.xml");
-}
-
-bool hasNote(const Model& model, const std::string& part) {
-  return std::any_of(model.notes.begin(), model.notes.end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
-}
-
-BodyId bodyOf(const Model& model, const std::string& name) {
-  for (const NamedBody& body : model.bodies) {
-    if (body.name == name) return body.id;
-  }
-  ADD_FAILURE() << "no body " << name;
-  return {};
 }
 
 Vec3d placeOf(const Model& model, const std::string& name) { return model.world.pose(bodyOf(model, name)).position; }

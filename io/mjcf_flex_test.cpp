@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "io/mjcf.h"
+#include "io/mjcf_cases.h"
 
 namespace avbd {
 namespace {
@@ -16,19 +17,6 @@ Model read(const std::string& inside, const MjcfOptions& options = {}) {
 }
 
 Model readWorld(const std::string& inside) { return read("<worldbody>" + inside + "</worldbody>"); }
-
-bool hasNote(const Model& model, const std::string& part) {
-  return std::any_of(model.notes.begin(), model.notes.end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
-}
-
-BodyId bodyOf(const Model& model, const std::string& name) {
-  for (const NamedBody& body : model.bodies) {
-    if (body.name == name) return body.id;
-  }
-  ADD_FAILURE() << "no body " << name;
-  return {};
-}
 
 double massOf(const Model& model) {
   double sum = 0;

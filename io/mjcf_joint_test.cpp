@@ -7,6 +7,7 @@
 #include <set>
 
 #include "io/mjcf.h"
+#include "io/mjcf_cases.h"
 
 namespace avbd {
 namespace {
@@ -17,23 +18,11 @@ Model read(const std::string& inside, const MjcfOptions& options = {}) {
   return readMjcfText("<mujoco><compiler angle='radian'/>" + inside + "</mujoco>", "t.xml", options);
 }
 
-bool hasNote(const Model& model, const std::string& part) {
-  return std::any_of(model.notes.begin(), model.notes.end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
-}
-
 const NamedJoint& jointOf(const Model& model, const std::string& name) {
   for (const NamedJoint& joint : model.joints) {
     if (joint.name == name) return joint;
   }
   throw std::runtime_error("no joint " + name);
-}
-
-BodyId bodyOf(const Model& model, const std::string& name) {
-  for (const NamedBody& body : model.bodies) {
-    if (body.name == name) return body.id;
-  }
-  throw std::runtime_error("no body " + name);
 }
 
 double coordinate(const Model& model, const std::string& name) {

@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "io/mjcf.h"
+#include "io/mjcf_cases.h"
 
 namespace avbd {
 namespace {
@@ -20,11 +21,6 @@ constexpr const char* kBodies = R"(<compiler autolimits="true"/><worldbody><site
 
 Model modelOf(const std::string& sensors, const std::string& more = "") {
   return readMjcfText("<mujoco><sensor>\n" + sensors + "</sensor>" + more + kBodies + "</mujoco>", "t.xml");
-}
-
-bool hasNote(const Model& model, const std::string& part) {
-  return std::any_of(model.notes.begin(), model.notes.end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
 TEST(MjcfSensors, BecomeProbesInTheirOrder) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/mjcf_cases.h"
+
 namespace avbd {
 namespace {
 
@@ -25,19 +27,6 @@ std::string messageOf(const std::string& inside, const MjcfOptions& options = {}
 void expectRefused(const std::string& inside, const std::string& part) {
   const std::string message = messageOf(inside);
   EXPECT_NE(message.find(part), std::string::npos) << message;
-}
-
-bool hasNote(const Model& model, const std::string& part) {
-  return std::any_of(model.notes.begin(), model.notes.end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
-}
-
-BodyId bodyOf(const Model& model, const std::string& name) {
-  for (const NamedBody& body : model.bodies) {
-    if (body.name == name) return body.id;
-  }
-  ADD_FAILURE() << "no body " << name;
-  return {};
 }
 
 void expectVector(Vec3d a, Vec3d b, double tolerance = 1e-6) {

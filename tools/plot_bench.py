@@ -7,8 +7,9 @@ Python."""
 
 import json
 import math
-import sys
 from html import escape
+
+import svg
 
 WIDTH, HEIGHT, LEFT, TOP = 460, 380, 70, 40
 COLORS = ["#1668b8", "#c8442c", "#2d8a4e", "#8454b0", "#a67c00", "#555555"]
@@ -112,16 +113,8 @@ def draw(found):
         for x, y, r in errors:
             chart.dot(x, y, color[label(r)], r["check"] == "pass", f"{r['scene']}: {x:g} ms, {y:g} mm")
         parts += chart.parts
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{2 * (WIDTH + LEFT) + 50}" height="{HEIGHT + TOP + 50}" '
-        'font-family="sans-serif" font-size="11">\n<rect width="100%" height="100%" fill="white"/>\n'
-        + "\n".join(parts)
-        + "\n</svg>\n"
-    )
+    return svg.page(2 * (WIDTH + LEFT) + 50, HEIGHT + TOP + 50, parts)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    with open(sys.argv[2], "w", encoding="utf-8") as out:
-        out.write(draw(records(sys.argv[1])))
+    svg.main(__doc__, lambda path: draw(records(path)))

@@ -6,8 +6,9 @@ across, both logarithmic, with the bound of the finest. Needs nothing but Python
 
 import json
 import math
-import sys
 from html import escape
+
+import svg
 
 WIDTH, HEIGHT, LEFT, TOP = 460, 300, 70, 40
 COLORS = {"bar": "#1668b8", "cantilever": "#c8442c"}
@@ -63,16 +64,8 @@ def draw(found):
             parts.append(text(x, y - 8, f"{ratio:.3f}"))
         parts.append(f'<circle cx="{LEFT + 14}" cy="{TOP + HEIGHT - 32 + 16 * i}" r="4" fill="{color}"/>')
         parts.append(text(LEFT + 24, TOP + HEIGHT - 28 + 16 * i, NAMES.get(name, name), "start"))
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{LEFT + WIDTH + 30}" height="{HEIGHT + TOP + 50}" '
-        'font-family="sans-serif" font-size="11">\n<rect width="100%" height="100%" fill="white"/>\n'
-        + "\n".join(parts)
-        + "\n</svg>\n"
-    )
+    return svg.page(LEFT + WIDTH + 30, HEIGHT + TOP + 50, parts)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    with open(sys.argv[2], "w", encoding="utf-8") as out:
-        out.write(draw(curves(sys.argv[1])))
+    svg.main(__doc__, lambda path: draw(curves(path)))

@@ -4,16 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
+
+#include "api/soft_cases.h"
 
 namespace avbd {
 namespace {
-
-constexpr float kDt = 1.0f / 60;
-
-void run(World& world, int steps) {
-  for (int i = 0; i < steps; ++i) world.step(kDt);
-}
 
 /// One of each kind falls on the ground, sheets with a weight on a corner.
 World oneOfEach(const WorldDef& def) {
@@ -59,29 +54,10 @@ TEST(SoftMaterial, IsKeptAsItWasGiven) {
 }
 
 TEST(SoftMaterial, OfEveryKindTheSameBitsForAllWidthsAndWorkers) {
-  std::set<uint64_t> hashes;
-  for (const int width : {1, 4, 8, 16})
-    for (const int workers : {1, 3}) {
-      World world = oneOfEach({.workers = workers, .simdWidth = width});
-      run(world, 40);
-      hashes.insert(world.hash());
-    }
-  EXPECT_EQ(hashes.size(), 1u);
+  expectSameBitsForAllWidthsAndWorkers(oneOfEach, 40);
 }
 
-TEST(SoftMaterial, ASnapshotHoldsPressuresAndTensions) {
-  World world = oneOfEach({}), other = oneOfEach({});
-  run(world, 20);
-  std::vector<std::byte> bytes;
-  world.save(bytes);
-  run(world, 30);
-  const uint64_t hash = world.hash();
-  for (World* again : {&world, &other}) {
-    again->restore(bytes);
-    run(*again, 30);
-    EXPECT_EQ(again->hash(), hash);
-  }
-}
+TEST(SoftMaterial, ASnapshotHoldsPressuresAndTensions) { expectSnapshotGoesOn(oneOfEach); }
 
 /// Elastic and viscous forces are inner ones, and take no energy from a body that moves and turns as a whole.
 TEST(SoftMaterial, DampingDoesNotHinderFlightAndTurn) {

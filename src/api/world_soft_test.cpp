@@ -4,18 +4,13 @@
 
 #include <cmath>
 #include <limits>
-#include <set>
+
+#include "api/soft_cases.h"
 
 namespace avbd {
 namespace {
 
-constexpr float kDt = 1.0f / 60;
-
 std::shared_ptr<const SoftMeshData> cube() { return makeTetBox({0.25f, 0.25f, 0.25f}, 3, 3, 3); }
-
-void run(World& world, int steps) {
-  for (int i = 0; i < steps; ++i) world.step(kDt);
-}
 
 struct OnTheGround : testing::Test {
   World world;
@@ -247,31 +242,9 @@ World twoCubes(const WorldDef& def) {
   return world;
 }
 
-TEST(Soft, TheSameBitsForAllWidthsAndWorkers) {
-  std::set<uint64_t> hashes;
-  for (const int width : {1, 4, 8, 16})
-    for (const int workers : {1, 3}) {
-      World world = twoCubes({.workers = workers, .simdWidth = width});
-      run(world, 60);
-      hashes.insert(world.hash());
-    }
-  EXPECT_EQ(hashes.size(), 1u);
-}
+TEST(Soft, TheSameBitsForAllWidthsAndWorkers) { expectSameBitsForAllWidthsAndWorkers(twoCubes, 60); }
 
-TEST(Soft, ASnapshotGoesOnAsIfNothingHadBeen) {
-  World world = twoCubes({}), other = twoCubes({});
-  run(world, 20);
-  std::vector<std::byte> bytes;
-  world.save(bytes);
-  run(world, 30);
-  const uint64_t hash = world.hash();
-  for (World* again : {&world, &other}) {
-    again->restore(bytes);
-    EXPECT_EQ(again->softBodies().size(), 2u);
-    run(*again, 30);
-    EXPECT_EQ(again->hash(), hash);
-  }
-}
+TEST(Soft, ASnapshotGoesOnAsIfNothingHadBeen) { expectSnapshotGoesOn(twoCubes); }
 
 TEST(Soft, BlockSweepsOfOthersDoNotMind) {
   World world = twoCubes({.primalSolver = PrimalSolver::BlockSweep});

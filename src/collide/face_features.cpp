@@ -43,23 +43,8 @@ NearestOnEdges nearestOnEdges(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 namespace {
 
 constexpr int kMostAdvances = 512;
-constexpr float kAdvance = 0.9f;  ///< share of the distance that is gone at once
 
 float lengthOf(Vec3 v) { return rows::sqrt(dot(v, v)); }
-
-/// distanceAt(time) of features whose distance shrinks no faster than by `fastest` in the whole time.
-template <class Distance>
-float advance(float least, float fastest, Distance&& distanceAt) {
-  if (!(fastest > 0)) return 2;
-  float time = 0;
-  for (int i = 0; i < kMostAdvances; ++i) {
-    const float left = distanceAt(time) - least;
-    if (left <= 0.1f * least) return time;
-    time += kAdvance * left / fastest;
-    if (time > 1) return 2;
-  }
-  return time;
-}
 
 float longest(Vec3 a, Vec3 b, Vec3 mean) { return std::max(lengthOf(a - mean), lengthOf(b - mean)); }
 
@@ -69,7 +54,7 @@ float pointMeetsFace(const FourPoints& p, float least) {
   const Vec3 mean = (p.way[0] + p.way[1] + p.way[2] + p.way[3]) * 0.25f;
   const float fastest =
       lengthOf(p.way[0] - mean) + std::max(longest(p.way[1], p.way[2], mean), lengthOf(p.way[3] - mean));
-  return advance(least, fastest, [&](float time) {
+  return advanceUntil(least, fastest, kMostAdvances, [&](float time) {
     const Vec3 at = p.when(0, time);
     return lengthOf(at - nearestOnFace(at, p.when(1, time), p.when(2, time), p.when(3, time)).point);
   });
@@ -78,7 +63,7 @@ float pointMeetsFace(const FourPoints& p, float least) {
 float edgesMeet(const FourPoints& p, float least) {
   const Vec3 mean = (p.way[0] + p.way[1] + p.way[2] + p.way[3]) * 0.25f;
   const float fastest = longest(p.way[0], p.way[1], mean) + longest(p.way[2], p.way[3], mean);
-  return advance(least, fastest, [&](float time) {
+  return advanceUntil(least, fastest, kMostAdvances, [&](float time) {
     const NearestOnEdges near = nearestOnEdges(p.when(0, time), p.when(1, time), p.when(2, time), p.when(3, time));
     return lengthOf(near.first - near.second);
   });

@@ -24,4 +24,15 @@ inline bool contains(const Aabb& outer, const Aabb& inner) {
          inner.upper.x <= outer.upper.x && inner.upper.y <= outer.upper.y && inner.upper.z <= outer.upper.z;
 }
 
+inline Vec3 lesser(Vec3 a, Vec3 b) { return {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z}; }
+inline Vec3 greater(Vec3 a, Vec3 b) { return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z}; }
+/// Holds both.
+inline Aabb merge(const Aabb& a, const Aabb& b) { return {lesser(a.lower, b.lower), greater(a.upper, b.upper)}; }
+inline Aabb grown(const Aabb& box, float by) {
+  const Vec3 around{by, by, by};
+  return {box.lower - around, box.upper + around};
+}
+/// All that it passes over on a straight way.
+inline Aabb swept(const Aabb& box, Vec3 way) { return {box.lower + lesser(way, {}), box.upper + greater(way, {})}; }
+
 }  // namespace avbd

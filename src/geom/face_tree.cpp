@@ -20,18 +20,12 @@ FaceTree::FaceTree(std::span<const Vec3> points, std::span<const Face> faces) : 
 }
 
 void FaceTree::refit(std::span<const Aabb> faces, std::vector<Aabb>& bounds) const {
-  const auto add = [](Aabb& box, const Aabb& more) {
-    box.lower = {std::min(box.lower.x, more.lower.x), std::min(box.lower.y, more.lower.y),
-                 std::min(box.lower.z, more.lower.z)};
-    box.upper = {std::max(box.upper.x, more.upper.x), std::max(box.upper.y, more.upper.y),
-                 std::max(box.upper.z, more.upper.z)};
-  };
   bounds.resize(nodes_.size());
   for (size_t i = nodes_.size(); i-- > 0;) {
     const Node& node = nodes_[i];
     bounds[i] = node.count > 0 ? faces[order_[node.begin]] : bounds[i + 1];
-    if (node.count == 0) add(bounds[i], bounds[node.right]);
-    for (uint32_t k = node.begin + 1; k < node.begin + node.count; ++k) add(bounds[i], faces[order_[k]]);
+    if (node.count == 0) bounds[i] = merge(bounds[i], bounds[node.right]);
+    for (uint32_t k = node.begin + 1; k < node.begin + node.count; ++k) bounds[i] = merge(bounds[i], faces[order_[k]]);
   }
 }
 

@@ -45,6 +45,14 @@ class FaceTree {
     uint32_t a, b;
   };
   static constexpr int kStack = 256;  ///< deeper than two trees of 2^32 faces
+  /// Puts the pairs below one of two nodes on the stack, the children of the one that is no leaf or comes first.
+  static void descend(NodePair pair, const Node& a, const Node& b, NodePair* stack, int& size) {
+    if (b.count > 0 || (a.count == 0 && pair.a <= pair.b)) {
+      stack[size++] = {a.right, pair.b}, stack[size++] = {pair.a + 1, pair.b};
+    } else {
+      stack[size++] = {pair.a, b.right}, stack[size++] = {pair.a, pair.b + 1};
+    }
+  }
   void build(uint32_t begin, uint32_t end, std::vector<Vec3>& centres);
   template <class F>
   void leafPairs(const Placed& at, const Node& a, const FaceTree& other, const Placed& otherAt, const Node& b,
@@ -93,13 +101,10 @@ void FaceTree::pairs(const Placed& at, const FaceTree& other, const Placed& othe
     const Aabb& box = at.nodes[pair.a];
     if (!meet({box.lower + at.lower, box.upper + at.upper}, otherAt, otherAt.nodes[pair.b])) continue;
     const Node &a = nodes_[pair.a], &b = other.nodes_[pair.b];
-    if (a.count > 0 && b.count > 0) {
+    if (a.count > 0 && b.count > 0)
       leafPairs(at, a, other, otherAt, b, f);
-    } else if (b.count > 0 || (a.count == 0 && pair.a <= pair.b)) {
-      stack[size++] = {a.right, pair.b}, stack[size++] = {pair.a + 1, pair.b};
-    } else {
-      stack[size++] = {pair.a, b.right}, stack[size++] = {pair.a, pair.b + 1};
-    }
+    else
+      descend(pair, a, b, stack, size);
   }
 }
 
@@ -123,10 +128,8 @@ void FaceTree::pairs(const Placed& at, F&& f) const {
     } else if (pair.a == pair.b) {
       stack[size++] = {pair.a + 1, a.right}, stack[size++] = {a.right, a.right};
       stack[size++] = {pair.a + 1, pair.a + 1};
-    } else if (b.count > 0 || (a.count == 0 && pair.a <= pair.b)) {
-      stack[size++] = {a.right, pair.b}, stack[size++] = {pair.a + 1, pair.b};
     } else {
-      stack[size++] = {pair.a, b.right}, stack[size++] = {pair.a, pair.b + 1};
+      descend(pair, a, b, stack, size);
     }
   }
 }

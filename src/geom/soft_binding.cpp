@@ -67,11 +67,7 @@ class Elements {
   template <size_t n>
   void insert(const std::array<uint32_t, n>& element, uint32_t index) {
     Aabb box{mesh_.points()[element[0]], mesh_.points()[element[0]]};
-    for (const uint32_t i : element) {
-      const Vec3 p = mesh_.points()[i];
-      box.lower = {std::min(box.lower.x, p.x), std::min(box.lower.y, p.y), std::min(box.lower.z, p.z)};
-      box.upper = {std::max(box.upper.x, p.x), std::max(box.upper.y, p.y), std::max(box.upper.z, p.z)};
-    }
+    for (const uint32_t i : element) box = merge(box, {mesh_.points()[i], mesh_.points()[i]});
     tree_.insert(box, index);
   }
   Vec3d at(uint32_t point) const { return toDouble(mesh_.points()[point]); }

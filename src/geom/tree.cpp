@@ -6,13 +6,6 @@
 namespace avbd {
 namespace {
 
-Aabb merge(const Aabb& a, const Aabb& b) {
-  const auto low = [](float x, float y) { return x < y ? x : y; };
-  const auto high = [](float x, float y) { return x > y ? x : y; };
-  return {{low(a.lower.x, b.lower.x), low(a.lower.y, b.lower.y), low(a.lower.z, b.lower.z)},
-          {high(a.upper.x, b.upper.x), high(a.upper.y, b.upper.y), high(a.upper.z, b.upper.z)}};
-}
-
 /// Half the surface: the chance that a query meets the box.
 float area(const Aabb& a) {
   const Vec3 e = a.upper - a.lower;

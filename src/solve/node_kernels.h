@@ -201,13 +201,10 @@ AVBD_INLINE void scatterTouchBlocks(const BatchView& v, NodeRows rows, uint32_t 
 
 /// Motion of the nodes, and the turn of the first.
 AVBD_INLINE void gatherTouch(NodeRows rows, const float* array, uint32_t at, V3<R> (&node)[4], V3<R>& turn) {
-  const Twist<R> first = gatherTwist<N>(array, rows[0] + at);
-  node[0] = first.lin, turn = first.ang;
-  for (int i = 1; i < 4; ++i) {
-    R linear[4];
-    lane::gatherRows<N>(array, 8, rows[i] + at, linear);
-    node[i] = {linear[0], linear[1], linear[2]};
-  }
+  gatherNodes(rows, array, at, node);
+  R angular[4];
+  lane::gatherRows<N>(array + 4, 8, rows[0] + at, angular);
+  turn = {angular[0], angular[1], angular[2]};
 }
 
 void multiplyNodeContacts(const BatchView& v) {

@@ -26,11 +26,6 @@ void addPieces(const std::vector<std::vector<T>>& of, std::vector<T>& all) {
   for (const std::vector<T>& list : of) all.insert(all.end(), list.begin(), list.end());
 }
 
-Vec3 lengthen(Vec3 bound, Vec3 motion, bool upper) {
-  const auto grow = [upper](float at, float by) { return (upper ? by > 0 : by < 0) ? at + by : at; };
-  return {grow(bound.x, motion.x), grow(bound.y, motion.y), grow(bound.z, motion.z)};
-}
-
 /// How far turning takes a point of the body at most. Dynamic bodies are small, and give way; a kinematic one may be a
 /// door of triangles, which pushes only what it finds in time.
 float turningReach(const BodyData& body, float h) {
@@ -42,11 +37,7 @@ float turningReach(const BodyData& body, float h) {
 Aabb sweptBounds(const BodyData& body, const ShapeData& shape, float h, float margin) {
   const Pose mass{body.position, body.rotation};
   const Pose pose{mass.position + rotate(mass.rotation, shape.toMass.p), mass.rotation * shape.toMass.q};
-  Aabb box = bounds(shape.geom, pose, margin + turningReach(body, h));
-  const Vec3 motion = body.linearVelocity * h;
-  box.lower = lengthen(box.lower, motion, false);
-  box.upper = lengthen(box.upper, motion, true);
-  return box;
+  return swept(bounds(shape.geom, pose, margin + turningReach(body, h)), body.linearVelocity * h);
 }
 
 /// Whether it may leave its fat bounds in this step.

@@ -81,20 +81,13 @@ ShapeMotion motionOf(const BodyMotion& body, const ShapeData& shape, Vec3d origi
 Aabb boundsOnWay(const BodyMotion& body, const ShapeData& shape, float radius) {
   const Vec3d mass = body.center + body.arm;
   const Pose pose{mass + rotate(body.rotation, shape.toMass.p), body.rotation * shape.toMass.q};
-  Aabb box = bounds(shape.geom, pose, turningReach(body.turn, radius + length(body.arm)));
-  const Vec3 by = body.shift;
-  box.lower = box.lower + Vec3{std::min(by.x, 0.0f), std::min(by.y, 0.0f), std::min(by.z, 0.0f)};
-  box.upper = box.upper + Vec3{std::max(by.x, 0.0f), std::max(by.y, 0.0f), std::max(by.z, 0.0f)};
-  return box;
+  return swept(bounds(shape.geom, pose, turningReach(body.turn, radius + length(body.arm))), body.shift);
 }
 
 Aabb boundsOnWay(const WorldData& world, const BodyMotion& motion, uint32_t body) {
   Aabb box{{kFarAway, kFarAway, kFarAway}, {-kFarAway, -kFarAway, -kFarAway}};
   for (uint32_t s = world.bodies[body].firstShape; s != kNone; s = world.shapes[s].next) {
-    const Aabb one = boundsOnWay(motion, world.shapes[s], world.bodies[body].radius);
-    const Vec3 lower = one.lower, upper = one.upper;
-    box.lower = {std::min(box.lower.x, lower.x), std::min(box.lower.y, lower.y), std::min(box.lower.z, lower.z)};
-    box.upper = {std::max(box.upper.x, upper.x), std::max(box.upper.y, upper.y), std::max(box.upper.z, upper.z)};
+    box = merge(box, boundsOnWay(motion, world.shapes[s], world.bodies[body].radius));
   }
   return box;
 }

@@ -25,20 +25,6 @@ constexpr int kFewPasses = 6;    ///< after these what still meets stays where i
 constexpr int kManyPasses = 16;  ///< after these all points of bodies that take part
 constexpr int kMostPasses = 60;
 
-/// The least distance along a direction from the second's nodes to the first's, at the end.
-float leastAtEnd(const NearFeatures& near, Vec3 direction) {
-  const int split = near.kind == TouchKind::EdgeEdge ? 2 : 1;
-  float first = 1e30f, second = -1e30f;
-  for (int i = 0; i < 4; ++i) {
-    const float along = dot(direction, near.points.when(i, 1));
-    if (i < split)
-      first = std::min(first, along);
-    else
-      second = std::max(second, along);
-  }
-  return first - second;
-}
-
 }  // namespace
 
 float keptDistance(float thickness, float distance) {
@@ -58,7 +44,7 @@ float meetingTime(const WorldData& world, const SoftSurfaces& surfaces, const Ne
   const bool point = near.kind == TouchKind::PointFace;
   const float both = world.softs[near.first].radius + world.softs[near.second].radius;
   const Vec3 direction = contact.off * (1 / contact.distance);
-  const float end = leastAtEnd(near, direction);
+  const float end = leastApart(near.kind, [&](int i) { return dot(direction, near.points.when(i, 1)); });
   if (end >= keptDistance(both, contact.distance)) return 2;
   const float kept =
       near.within() ? keptDistance(thicknessOf(world, near), contact.distance) : keptDistance(both, contact.distance);
@@ -70,18 +56,9 @@ FoundTouch touchAt(const WorldData& world, const NearFeatures& near, float time)
   Vec3 p[4];
   for (int i = 0; i < 4; ++i) p[i] = near.points.when(i, time);
   FoundTouch found;
-  found.touch.kind = near.kind;
-  found.touch.first = near.first, found.touch.firstPart = near.firstPart;
-  found.touch.second = near.second, found.touch.secondPart = near.secondPart;
-  if (near.kind == TouchKind::EdgeEdge) {
-    const NearestOnEdges nearest = nearestOnEdges(p[0], p[1], p[2], p[3]);
-    found.touch.anchor = {nearest.onFirst, nearest.onSecond, 0};
-    found.off = nearest.first - nearest.second;
-  } else {
-    const NearestOnFace nearest = nearestOnFace(p[0], p[1], p[2], p[3]);
-    found.touch.anchor = nearest.weights;
-    found.off = p[0] - nearest.point;
-  }
+  found.touch = near.touch();
+  const NearestFeatures nearest = nearestFeatures(near.kind, p);
+  found.touch.anchor = nearest.place, found.off = nearest.off;
   found.touch.normal = found.off * (1 / length(found.off));
   const std::array<float, 4> weights = nodeWeights(near.kind, found.touch.anchor);
   float apart = 0;
@@ -101,10 +78,7 @@ MovingFace movingFace(const WorldData& world, const SoftSurfaces& surfaces, uint
 
 float meetingTime(const WorldData& world, const StepData& step, uint32_t soft, const ShapePiece& piece, uint32_t face) {
   const MovingFace moving = movingFace(world, step.softs, soft, face);
-  float fastest = length(piece.turn) * piece.reach;
-  float way = 0;
-  for (const Vec3& one : moving.way) way = std::max(way, length(one - piece.linear));
-  fastest += way;
+  const float fastest = fastestApproach(piece, moving);
   const float thickness = world.softs[soft].radius;
   const Nearest near =
       nearestToFace(piece, piece.pose, {moving.at[0], moving.at[1], moving.at[2]}, fastest + kKept * thickness);
@@ -121,21 +95,6 @@ float meetingTime(const WorldData& world, const StepData& step, uint32_t soft, c
 }
 
 namespace {
-
-SoftTouch named(const NearFeatures& near) {
-  SoftTouch touch;
-  touch.kind = near.kind;
-  touch.first = near.first, touch.firstPart = near.firstPart;
-  touch.second = near.second, touch.secondPart = near.secondPart;
-  return touch;
-}
-SoftTouch named(const ShapePiece& piece, uint32_t soft, uint32_t face) {
-  SoftTouch touch;
-  touch.kind = TouchKind::ShapeFace;
-  touch.first = piece.shape, touch.firstPart = piece.part;
-  touch.second = soft, touch.secondPart = face;
-  return touch;
-}
 
 class Stops {
  public:
@@ -159,7 +118,7 @@ class Stops {
       checkNear();
     } else {
       for (const NearContact& near : s_.contacts)
-        if (comesNear(near)) check(FeaturePairs(world_, s_, near.first, near.second).features(near));
+        if (comesNear(near)) check(FeaturePairs(world_, s_, near.names.first, near.names.second).features(near.names));
     }
     checkShapes();
   }
@@ -173,12 +132,12 @@ class Stops {
   void checkNear() {
     forEachNear(world_, s_, [&](const NearFeatures& near) { check(near); });
   }
-  void check(const NearFeatures& near) { meet(meetingTime(world_, s_, near), named(near)); }
+  void check(const NearFeatures& near) { meet(meetingTime(world_, s_, near), near.touch()); }
   void checkShapes() {
     world_.softIds.forEach([&](uint32_t slot) {
       forEachNearShape(world_, step_, slot, true, [&](const ShapePiece& piece, uint32_t face) {
         const float time = meetingTime(world_, step_, slot, piece, face);
-        if (time <= 1 && !comes(slot, piece, face)) meet(time, named(piece, slot, face));
+        if (time <= 1 && !comes(slot, piece, face)) meet(time, piece.namesWith(slot, face).touch());
       });
     });
   }
@@ -194,18 +153,19 @@ class Stops {
 
   /// All points of the second side are at least `distance` behind those of the first, along the direction.
   bool comesNear(const NearContact& near) const {
-    const SoftData &first = world_.softs[near.first], &second = world_.softs[near.second];
-    const SoftPlace &a = s_.places[near.first], &b = s_.places[near.second];
+    const FeatureNames& names = near.names;
+    const SoftData &first = world_.softs[names.first], &second = world_.softs[names.second];
+    const SoftPlace &a = s_.places[names.first], &b = s_.places[names.second];
     const auto along = [&](const SoftPlace& place, uint32_t point) { return dot(near.direction, place.ways[point]); };
     float back, forth;
-    if (near.kind == TouchKind::EdgeEdge) {
-      const auto& e = first.mesh->parts().features.edges[near.firstPart];
-      const auto& f = second.mesh->parts().features.edges[near.secondPart];
+    if (names.kind == TouchKind::EdgeEdge) {
+      const auto& e = first.mesh->parts().features.edges[names.firstPart];
+      const auto& f = second.mesh->parts().features.edges[names.secondPart];
       back = std::min(along(a, e[0]), along(a, e[1]));
       forth = std::max(along(b, f[0]), along(b, f[1]));
     } else {
-      const auto& face = second.mesh->surface()[near.secondPart];
-      back = along(a, near.firstPart);
+      const auto& face = second.mesh->surface()[names.secondPart];
+      back = along(a, names.firstPart);
       forth = std::max({along(b, face[0]), along(b, face[1]), along(b, face[2])});
     }
     const float left = near.distance + back - forth + dot(near.direction, a.drift - b.drift);

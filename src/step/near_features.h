@@ -10,13 +10,32 @@
 namespace avbd {
 
 /// A point before a face, or two edges.
-struct NearFeatures {
-  TouchKind kind = TouchKind::PointFace;
-  uint32_t first = kNone, firstPart = 0;  ///< as of SoftTouch
-  uint32_t second = kNone, secondPart = 0;
+struct NearFeatures : FeatureNames {
   FourPoints points;  ///< of its nodes in their order, from the first body's origin; ways beyond its drift
-  bool within() const { return first == second; }
 };
+
+/// How many of four nodes are the first side's.
+inline int firstNodes(TouchKind kind) { return kind == TouchKind::EdgeEdge ? 2 : 1; }
+
+/// The least of the first side's nodes less the most of the second's; along(i): where node i is along a direction.
+template <class Along>
+float leastApart(TouchKind kind, Along&& along) {
+  float first = 1e30f, second = -1e30f;
+  for (int i = 0; i < 4; ++i) {
+    if (i < firstNodes(kind))
+      first = std::min(first, along(i));
+    else
+      second = std::max(second, along(i));
+  }
+  return first - second;
+}
+
+/// Where the features of four nodes are nearest.
+struct NearestFeatures {
+  Vec3 place;  ///< as SoftTouch::anchor
+  Vec3 off;    ///< from the second's nearest point to the first's
+};
+NearestFeatures nearestFeatures(TouchKind kind, const Vec3 (&p)[4]);
 
 /// The features of two bodies, or of one.
 class FeaturePairs {
@@ -26,17 +45,11 @@ class FeaturePairs {
         places_{&surfaces.places[a], &surfaces.places[b]},
         slots_{a, b},
         shift_(shiftOf(*places_[0], *places_[1])),
-        lower_(shift_.start +
-               Vec3{std::min(shift_.drift.x, 0.0f), std::min(shift_.drift.y, 0.0f), std::min(shift_.drift.z, 0.0f)}),
-        upper_(shift_.start +
-               Vec3{std::max(shift_.drift.x, 0.0f), std::max(shift_.drift.y, 0.0f), std::max(shift_.drift.z, 0.0f)}) {}
+        around_(shift_.of({})) {}
 
-  /// The features of a contact whose first body is a, its second b.
-  NearFeatures features(const NearContact& contact) const {
-    NearFeatures near;
-    near.kind = contact.kind;
-    near.first = contact.first, near.firstPart = contact.firstPart;
-    near.second = contact.second, near.secondPart = contact.secondPart;
+  /// The features by their names, of which the first body is a, the second b.
+  NearFeatures features(const FeatureNames& names) const {
+    NearFeatures near{names, {}};
     if (near.kind == TouchKind::EdgeEdge)
       putEdges(near);
     else
@@ -79,7 +92,9 @@ class FeaturePairs {
     put(near, 0, 0, a[0], 0), put(near, 1, 0, a[1], 0), put(near, 2, 1, b[0], 0), put(near, 3, 1, b[1], 0);
   }
   /// Of a box of the first body and one of the second.
-  bool pass(const Aabb& a, const Aabb& b) const { return overlaps(a, {b.lower + lower_, b.upper + upper_}); }
+  bool pass(const Aabb& a, const Aabb& b) const {
+    return overlaps(a, {b.lower + around_.lower, b.upper + around_.upper});
+  }
 
   template <class F>
   void points(int side, uint32_t pointFace, uint32_t face, F&& f) const {
@@ -91,8 +106,7 @@ class FeaturePairs {
       if (slots_[0] == slots_[1] && (point == of[0] || point == of[1] || point == of[2])) continue;
       const Aabb &ball = places_[side]->pointBoxes[point], &box = places_[other]->faces[face];
       if (side == 0 ? !pass(ball, box) : !pass(box, ball)) continue;
-      NearFeatures near;
-      near.first = slots_[side], near.firstPart = point, near.second = slots_[other], near.secondPart = face;
+      NearFeatures near{{TouchKind::PointFace, slots_[side], point, slots_[other], face}, {}};
       putFace(near, side);
       f(near);
     }
@@ -116,9 +130,7 @@ class FeaturePairs {
     if (within && (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1])) return;
     if (within && edgeB < edgeA) return edge(edgeB, edgeA, f);
     if (!pass(places_[0]->edgeBoxes[edgeA], places_[1]->edgeBoxes[edgeB])) return;
-    NearFeatures near;
-    near.kind = TouchKind::EdgeEdge;
-    near.first = slots_[0], near.firstPart = edgeA, near.second = slots_[1], near.secondPart = edgeB;
+    NearFeatures near{{TouchKind::EdgeEdge, slots_[0], edgeA, slots_[1], edgeB}, {}};
     putEdges(near);
     f(near);
   }
@@ -127,7 +139,7 @@ class FeaturePairs {
   const SoftPlace* places_[2];
   uint32_t slots_[2];
   PlaceShift shift_;
-  Vec3 lower_, upper_;  ///< of b's boxes in a's frame
+  Aabb around_;  ///< what to add to b's boxes in a's frame
 };
 
 /// Calls f(features) for all of the near faces.

@@ -18,12 +18,6 @@ NearPose ShapePiece::when(float time) const {
 
 namespace {
 
-Vec3 least(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-Vec3 most(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-
-/// All that a box passes over.
-Aabb swept(const Aabb& box, Vec3 way) { return {box.lower + least({}, way), box.upper + most({}, way)}; }
-
 /// Bounds of a box in the frame of a pose.
 Aabb boxIn(const NearPose& pose, const Aabb& box) {
   const Quat back = conjugate(pose.q);
@@ -36,12 +30,13 @@ Aabb boxIn(const NearPose& pose, const Aabb& box) {
 
 class NearSearch {
  public:
-  NearSearch(const WorldData& world, const StepData& step, uint32_t soft, bool solved)
+  NearSearch(const WorldData& world, StepData& step, uint32_t soft, bool solved)
       : world_(world), step_(step), soft_(world.softs[soft]), place_(step.softs.places[soft]), solved_(solved) {}
 
   void run(FunctionRef<void(const ShapePiece&, uint32_t)> f) {
     const bool asleep = isAsleep(world_, soft_);
-    std::vector<uint32_t> shapes;
+    std::vector<uint32_t>& shapes = step_.softs.shapes;
+    shapes.clear();
     world_.tree.query(worldBounds(), [&](uint32_t shape) {
       const ShapeData& data = world_.shapes[shape];
       if (data.isTrigger || isParticle(world_, data.body) || data.geom.type == ShapeType::HalfSpace) return;
@@ -94,9 +89,7 @@ class NearSearch {
 
   void meetTriangles(const ShapePiece& whole, float margin, uint32_t face,
                      FunctionRef<void(const ShapePiece&, uint32_t)> f) const {
-    const Vec3 around{margin, margin, margin};
-    Aabb box = swept(place_.faces[face], place_.drift - whole.linear);
-    box = {box.lower - around, box.upper + around};
+    const Aabb box = grown(swept(place_.faces[face], place_.drift - whole.linear), margin);
     forEachBareTriangle(whole.geom, boxIn(whole.pose, box), [&](const SurfaceTriangle& triangle) {
       ShapePiece piece = whole;
       piece.part = triangle.element;
@@ -109,7 +102,7 @@ class NearSearch {
   }
 
   const WorldData& world_;
-  const StepData& step_;
+  StepData& step_;
   const SoftData& soft_;
   const SoftPlace& place_;
   bool solved_;
@@ -117,7 +110,7 @@ class NearSearch {
 
 }  // namespace
 
-void forEachNearShape(const WorldData& world, const StepData& step, uint32_t soft, bool solved,
+void forEachNearShape(const WorldData& world, StepData& step, uint32_t soft, bool solved,
                       FunctionRef<void(const ShapePiece&, uint32_t face)> f) {
   NearSearch(world, step, soft, solved).run(f);
 }
@@ -138,28 +131,21 @@ Nearest nearestToFace(const ShapePiece& piece, const NearPose& pose, const Vec3 
   return near;
 }
 
-namespace {
-
-constexpr int kMostAdvances = 64;
-constexpr float kAdvance = 0.9f;  ///< share of the distance that is gone at once
-
-}  // namespace
-
-float pieceMeetsFace(const ShapePiece& piece, const MovingFace& face, float least) {
+float fastestApproach(const ShapePiece& piece, const MovingFace& face) {
   float fastest = 0;
   for (const Vec3& way : face.way) fastest = std::max(fastest, length(way - piece.linear));
-  fastest += length(piece.turn) * piece.reach;
-  float time = 0;
-  for (int i = 0; i < kMostAdvances && fastest > 0; ++i) {
+  return fastest + length(piece.turn) * piece.reach;
+}
+
+float pieceMeetsFace(const ShapePiece& piece, const MovingFace& face, float least) {
+  constexpr int kMostAdvances = 64;  ///< each asks a search for the nearest points of two convex shapes
+  const float fastest = fastestApproach(piece, face);
+  return advanceUntil(least, fastest, kMostAdvances, [&](float time) {
     const Vec3 v[3] = {face.when(0, time), face.when(1, time), face.when(2, time)};
     const Nearest near = nearestToFace(piece, piece.when(time), v, least + fastest);
-    const float left = near.distance - least;
-    if (near.apart && left >= fastest) return 2;
-    if (left <= 0.1f * least) return time;
-    time += kAdvance * left / fastest;
-    if (time > 1) return 2;
-  }
-  return fastest > 0 ? time : 2;
+    // Farther than all of the way.
+    return near.apart && near.distance >= least + fastest ? least + 2 * fastest : near.distance;
+  });
 }
 
 }  // namespace avbd

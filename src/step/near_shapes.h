@@ -19,12 +19,14 @@ struct ShapePiece {
   float reach = 0;    ///< [m] of the body about its centre
 
   NearPose when(float time) const;
+  /// As a touch with a face of a soft body is named.
+  FeatureNames namesWith(uint32_t soft, uint32_t face) const { return {TouchKind::ShapeFace, shape, part, soft, face}; }
   Vec3 wayOf(Vec3 point) const { return linear + cross(turn, point - center); }
 };
 
 /// Calls f(piece, face) for all that may meet while the body's points go their ways (SoftPlace) and shapes those of
 /// their bodies: as their velocities say, or as they are solved. Not for triggers, particles and half spaces.
-void forEachNearShape(const WorldData& world, const StepData& step, uint32_t soft, bool solved,
+void forEachNearShape(const WorldData& world, StepData& step, uint32_t soft, bool solved,
                       FunctionRef<void(const ShapePiece&, uint32_t face)> f);
 
 /// Nearest points of a piece at a pose (a) and a face (b).
@@ -35,6 +37,8 @@ struct MovingFace {
   Vec3 at[3], way[3];
   Vec3 when(int i, float time) const { return at[i] + way[i] * time; }
 };
+/// [m] by which the two come nearer over the step, at most.
+float fastestApproach(const ShapePiece& piece, const MovingFace& face);
 /// The first time 0 .. 1 at which the two are as near as `least`; more than 1: never.
 float pieceMeetsFace(const ShapePiece& piece, const MovingFace& face, float least);
 

@@ -13,21 +13,18 @@ constexpr float kEnd = 1e-3f;          ///< share of an edge that is its end's
 constexpr float kOfRest = 0.5f;        ///< of what parts two features at rest
 constexpr float kNoDirection = 1e-3f;  ///< of the thickness: nearer than that nothing tells the direction
 
-Vec3 restOf(const WorldData& world, const NearFeatures& near, uint32_t point) {
-  return world.softs[near.first].mesh->points()[point];
-}
-
 float partedAtRest(const WorldData& world, const NearFeatures& near) {
   const SoftMeshData& mesh = *world.softs[near.first].mesh;
   const auto at = [&](uint32_t i) { return mesh.points()[i]; };
+  Vec3 off;
   if (near.kind == TouchKind::EdgeEdge) {
     const auto &a = mesh.parts().features.edges[near.firstPart], &b = mesh.parts().features.edges[near.secondPart];
-    const NearestOnEdges nearest = nearestOnEdges(at(a[0]), at(a[1]), at(b[0]), at(b[1]));
-    return length(nearest.first - nearest.second);
+    off = nearestFeatures(near.kind, {at(a[0]), at(a[1]), at(b[0]), at(b[1])}).off;
+  } else {
+    const auto& face = mesh.surface()[near.secondPart];
+    off = nearestFeatures(near.kind, {at(near.firstPart), at(face[0]), at(face[1]), at(face[2])}).off;
   }
-  const auto& face = mesh.surface()[near.secondPart];
-  const Vec3 p = restOf(world, near, near.firstPart);
-  return length(p - nearestOnFace(p, at(face[0]), at(face[1]), at(face[2])).point);
+  return length(off);
 }
 
 /// Whether a direction leads out of a solid at an edge.
@@ -36,40 +33,22 @@ bool leadsOut(const SoftSurfaces& s, const SoftData& soft, uint32_t slot, uint32
   const auto& faces = soft.mesh->parts().features.edgeFaces[edge];
   Vec3 out;
   for (const uint32_t face : faces)
-    if (face != SurfaceFeatures::kNoFace) {
-      const Vec3 n = s.places[slot].normals[face];
-      const float size = length(n);
-      if (size > 0) out = out + n * (1 / size);
-    }
+    if (face != SurfaceFeatures::kNoFace) out = out + s.places[slot].normals[face];
   return dot(out, direction) > 0;
 }
 
-FeatureContact edgeContact(const WorldData& world, const SoftSurfaces& surfaces, const NearFeatures& near) {
-  const auto& p = near.points.at;
-  const NearestOnEdges nearest = nearestOnEdges(p[0], p[1], p[2], p[3]);
-  FeatureContact contact;
-  contact.place = {nearest.onFirst, nearest.onSecond, 0};
-  contact.off = nearest.first - nearest.second;
-  contact.distance = length(contact.off);
+/// Whether two edges are nearest within both, and outside of solids.
+bool edgesCount(const WorldData& world, const SoftSurfaces& surfaces, const NearFeatures& near,
+                const NearestFeatures& nearest) {
   const auto isInner = [](float x) { return x > kEnd && x < 1 - kEnd; };
-  contact.counts = isInner(nearest.onFirst) && isInner(nearest.onSecond) &&
-                   leadsOut(surfaces, world.softs[near.second], near.second, near.secondPart, contact.off) &&
-                   leadsOut(surfaces, world.softs[near.first], near.first, near.firstPart, -contact.off);
-  return contact;
+  return isInner(nearest.place.x) && isInner(nearest.place.y) &&
+         leadsOut(surfaces, world.softs[near.second], near.second, near.secondPart, nearest.off) &&
+         leadsOut(surfaces, world.softs[near.first], near.first, near.firstPart, -nearest.off);
 }
 
 /// How fast the second closes in along a direction, at most.
 float closing(const NearFeatures& near, Vec3 direction) {
-  const int split = near.kind == TouchKind::EdgeEdge ? 2 : 1;
-  float first = 1e30f, second = -1e30f;
-  for (int i = 0; i < 4; ++i) {
-    const float along = dot(direction, near.points.way[i]);
-    if (i < split)
-      first = std::min(first, along);
-    else
-      second = std::max(second, along);
-  }
-  return second - first;
+  return -leastApart(near.kind, [&](int i) { return dot(direction, near.points.way[i]); });
 }
 
 /// Cloth has no inside: what touched it from one side and is on the other one by now has passed.
@@ -91,8 +70,7 @@ void noteContact(const WorldData& world, SoftSurfaces& surfaces, const NearFeatu
                  const FeatureContact& contact) {
   if (!mayMeet(world, near, contact)) return;
   const Vec3 direction = contact.off * (1 / contact.distance);
-  surfaces.contacts.push_back(
-      {near.kind, near.first, near.firstPart, near.second, near.secondPart, direction, contact.distance});
+  surfaces.contacts.push_back({near, direction, contact.distance});
 }
 
 void meet(const WorldData& world, StepData& step, const NearFeatures& near) {
@@ -105,9 +83,7 @@ void meet(const WorldData& world, StepData& step, const NearFeatures& near) {
   if (point && !near.within() && !world.softs[near.second].mesh->isCloth()) return;  // soft_points.cpp
   if (!contact.counts) return;
   FoundTouch found;
-  found.touch.kind = near.kind;
-  found.touch.first = near.first, found.touch.firstPart = near.firstPart;
-  found.touch.second = near.second, found.touch.secondPart = near.secondPart;
+  found.touch = near.touch();
   found.touch.anchor = contact.place;
   found.off = contact.off;
   if (contact.distance <= kNoDirection * thickness) return;
@@ -130,16 +106,22 @@ float thicknessOf(const WorldData& world, const NearFeatures& near) {
   return near.within() ? std::min(both, kOfRest * partedAtRest(world, near)) : both;
 }
 
-FeatureContact featureContact(const WorldData& world, const SoftSurfaces& surfaces, const NearFeatures& near) {
-  if (near.kind == TouchKind::EdgeEdge) return edgeContact(world, surfaces, near);
-  const auto& p = near.points.at;
+NearestFeatures nearestFeatures(TouchKind kind, const Vec3 (&p)[4]) {
+  if (kind == TouchKind::EdgeEdge) {
+    const NearestOnEdges nearest = nearestOnEdges(p[0], p[1], p[2], p[3]);
+    return {{nearest.onFirst, nearest.onSecond, 0}, nearest.first - nearest.second};
+  }
   const NearestOnFace nearest = nearestOnFace(p[0], p[1], p[2], p[3]);
-  FeatureContact contact;
-  contact.place = nearest.weights;
-  contact.off = p[0] - nearest.point;
-  contact.distance = length(contact.off);
-  contact.counts = world.softs[near.second].mesh->isCloth() || dot(cross(p[2] - p[1], p[3] - p[1]), contact.off) > 0;
-  return contact;
+  return {nearest.weights, p[0] - nearest.point};
+}
+
+FeatureContact featureContact(const WorldData& world, const SoftSurfaces& surfaces, const NearFeatures& near) {
+  const auto& p = near.points.at;
+  const NearestFeatures nearest = nearestFeatures(near.kind, p);
+  const bool counts = near.kind == TouchKind::EdgeEdge ? edgesCount(world, surfaces, near, nearest)
+                                                       : world.softs[near.second].mesh->isCloth() ||
+                                                             dot(cross(p[2] - p[1], p[3] - p[1]), nearest.off) > 0;
+  return {nearest.place, nearest.off, length(nearest.off), counts};
 }
 
 void findFeatureTouches(const WorldData& world, StepData& step) {

@@ -75,8 +75,7 @@ class PointSearch {
     const float sign = inside ? -1.0f : 1.0f;
     const bool apart = distance > 1e-3f * thickness_;
     FoundTouch found;
-    found.touch.first = slots_[0], found.touch.firstPart = point;
-    found.touch.second = slots_[1], found.touch.secondPart = search.face;
+    found.touch = FeatureNames{TouchKind::PointFace, slots_[0], point, slots_[1], search.face}.touch();
     found.touch.normal = apart ? off * (sign / distance) : search.normal;
     found.touch.anchor = search.nearest.weights;
     found.separation = separation;

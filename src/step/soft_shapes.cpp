@@ -60,9 +60,7 @@ void meet(const WorldData& world, StepData& step, uint32_t slot, const ShapePiec
 
 FoundTouch shapeTouch(const WorldData& world, const OnFace& on, const ShapePiece& piece, Vec3 point) {
   FoundTouch found;
-  found.touch.kind = TouchKind::ShapeFace;
-  found.touch.first = piece.shape, found.touch.firstPart = piece.part;
-  found.touch.second = on.soft, found.touch.secondPart = on.face;
+  found.touch = piece.namesWith(on.soft, on.face).touch();
   found.touch.normal = on.normal;
   found.touch.anchor = on.weights;
   found.arm = point - piece.center;

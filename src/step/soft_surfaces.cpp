@@ -19,9 +19,6 @@ PlaceShift shiftOf(const SoftPlace& a, const SoftPlace& b) { return {toFloat(b.o
 
 namespace {
 
-Vec3 least(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-Vec3 most(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-
 /// Its way if nothing but gravity acts.
 Vec3 freeWay(const WorldData& world, const BodyData& body, float h) {
   if (body.asleep) return {};
@@ -63,12 +60,6 @@ void findFlat(const SoftMeshData& mesh, FlatScratch& scratch, SoftPlace& place) 
   keepFlat(mesh.surface(), place.endNormals, scratch, place.flat);
 }
 
-Aabb grown(const Aabb& box, float by) {
-  const Vec3 around{by, by, by};
-  return {box.lower - around, box.upper + around};
-}
-Aabb joined(const Aabb& a, const Aabb& b) { return {least(a.lower, b.lower), most(a.upper, b.upper)}; }
-
 /// Of faces and edges from those of their points.
 void boxFeatures(const SoftMeshData& mesh, SoftPlace& place) {
   const auto faces = mesh.surface();
@@ -76,17 +67,22 @@ void boxFeatures(const SoftMeshData& mesh, SoftPlace& place) {
   place.faces.resize(faces.size()), place.edgeBoxes.resize(edges.size());
   const auto box = [&](uint32_t point) -> const Aabb& { return place.pointBoxes[point]; };
   for (size_t f = 0; f < faces.size(); ++f)
-    place.faces[f] = joined(joined(box(faces[f][0]), box(faces[f][1])), box(faces[f][2]));
-  for (size_t e = 0; e < edges.size(); ++e) place.edgeBoxes[e] = joined(box(edges[e][0]), box(edges[e][1]));
+    place.faces[f] = merge(merge(box(faces[f][0]), box(faces[f][1])), box(faces[f][2]));
+  for (size_t e = 0; e < edges.size(); ++e) place.edgeBoxes[e] = merge(box(edges[e][0]), box(edges[e][1]));
   mesh.faceTree().refit(place.faces, place.bounds);
+}
+
+float growth(const WorldData& world, const SoftData& soft) { return soft.radius + 0.5f * touchMargin(world); }
+
+/// All that a point passes over.
+Aabb pointBox(const SoftPlace& place, size_t point, float by) {
+  const Vec3 start = place.points[point], end = start + place.ways[point];
+  return grown({lesser(start, end), greater(start, end)}, by);
 }
 
 void boxPoints(const SoftMeshData& mesh, float by, SoftPlace& place) {
   place.pointBoxes.resize(place.points.size());
-  for (size_t i = 0; i < place.points.size(); ++i) {
-    const Vec3 start = place.points[i], end = start + place.ways[i];
-    place.pointBoxes[i] = grown({least(start, end), most(start, end)}, by);
-  }
+  for (size_t i = 0; i < place.points.size(); ++i) place.pointBoxes[i] = pointBox(place, i, by);
   boxFeatures(mesh, place);
 }
 
@@ -100,8 +96,6 @@ void findNormals(const SoftMeshData& mesh, SoftPlace& place) {
     place.endNormals[f] = normalOf(end(0), end(1), end(2));
   }
 }
-
-float growth(const WorldData& world, const SoftData& soft) { return soft.radius + 0.5f * touchMargin(world); }
 
 template <class WayOf>
 void place(const WorldData& world, const SoftData& soft, SoftPlace& out, WayOf&& wayOf) {
@@ -129,21 +123,13 @@ void placeAll(const WorldData& world, StepData& step, WayOf&& wayOf) {
   world.softIds.forEach([&](uint32_t slot) { place(world, world.softs[slot], step.softs.places[slot], wayOf); });
 }
 
-/// Bounds of a body on its way in the frame of another.
-Aabb boundsFrom(const SoftPlace& from, const SoftPlace& place) {
-  const PlaceShift shift = shiftOf(from, place);
-  return {place.bounds[0].lower + shift.start + least({}, shift.drift),
-          place.bounds[0].upper + shift.start + most({}, shift.drift)};
-}
-
 /// Bodies by their lower ends along x.
 void sweep(const WorldData& world, SoftSurfaces& s) {
   s.ends.clear(), s.pairs.clear();
   world.softIds.forEach([&](uint32_t slot) {
     const SoftPlace& place = s.places[slot];
-    const float to = place.drift.x;
-    s.ends.push_back({place.origin.x + double{place.bounds[0].lower.x + std::min(to, 0.0f)},
-                      place.origin.x + double{place.bounds[0].upper.x + std::max(to, 0.0f)}, slot});
+    const Aabb box = swept(place.bounds[0], place.drift);
+    s.ends.push_back({place.origin.x + double{box.lower.x}, place.origin.x + double{box.upper.x}, slot});
   });
   std::sort(s.ends.begin(), s.ends.end(), [](const SoftSurfaces::Ends& a, const SoftSurfaces::Ends& b) {
     return std::tie(a.lower, a.slot) < std::tie(b.lower, b.slot);
@@ -152,7 +138,8 @@ void sweep(const WorldData& world, SoftSurfaces& s) {
     for (size_t k = i + 1; k < s.ends.size() && s.ends[k].lower <= s.ends[i].upper; ++k) {
       const uint32_t a = std::min(s.ends[i].slot, s.ends[k].slot), b = std::max(s.ends[i].slot, s.ends[k].slot);
       if (isAsleep(world, world.softs[a]) && isAsleep(world, world.softs[b])) continue;
-      if (overlaps(s.places[a].bounds[0], boundsFrom(s.places[a], s.places[b]))) s.pairs.push_back({a, b});
+      if (overlaps(s.places[a].bounds[0], shiftOf(s.places[a], s.places[b]).of(s.places[b].bounds[0])))
+        s.pairs.push_back({a, b});
     }
   std::sort(s.pairs.begin(), s.pairs.end());
 }
@@ -222,9 +209,7 @@ void nearFace(const WorldData& world, SoftSurfaces& s, uint32_t slot, uint32_t f
   const SoftPlace& place = s.places[slot];
   world.softIds.forEach([&](uint32_t other) {
     if (other == slot && (!world.softs[slot].selfContact || place.tangled)) return;
-    const PlaceShift shift = shiftOf(s.places[other], place);
-    const Vec3 lower = shift.start + least({}, shift.drift), upper = shift.start + most({}, shift.drift);
-    const Aabb box{place.faces[face].lower + lower, place.faces[face].upper + upper};
+    const Aabb box = shiftOf(s.places[other], place).of(place.faces[face]);
     world.softs[other].mesh->faceTree().query(s.places[other].bounds, box, [&](uint32_t near) {
       if (!overlaps(s.places[other].faces[near], box)) return;
       if (slot < other || (slot == other && face < near)) s.near.push_back({slot, other, face, near});
@@ -242,9 +227,7 @@ void takeShares(const WorldData& world, StepData& step, const std::vector<std::a
     SoftPlace& place = s.places[slot];
     const SoftData& soft = world.softs[slot];
     place.ways[point] = solvedWay(world, step, soft.bodies[point]) - place.drift;
-    const Vec3 start = place.points[point], end = start + place.ways[point];
-    const Aabb way = grown({least(start, end), most(start, end)}, growth(world, soft));
-    place.pointBoxes[point] = joined(place.pointBoxes[point], way);
+    place.pointBoxes[point] = merge(place.pointBoxes[point], pointBox(place, point, growth(world, soft)));
     touched[slot].resize(soft.bodies.size());
     touched[slot][point] = 1;
   }
@@ -305,10 +288,9 @@ void findNearFaces(const WorldData& world, SoftSurfaces& s) {
   for (const std::array<uint32_t, 2>& pair : s.pairs) {
     const uint32_t a = pair[0], b = pair[1];
     const SoftData &softA = world.softs[a], &softB = world.softs[b];
-    const PlaceShift shift = shiftOf(s.places[a], s.places[b]);
-    const Vec3 lower = shift.start + least({}, shift.drift), upper = shift.start + most({}, shift.drift);
+    const Aabb shift = shiftOf(s.places[a], s.places[b]).of({});
     softA.mesh->faceTree().pairs({s.places[a].faces, s.places[a].bounds, {}, {}}, softB.mesh->faceTree(),
-                                 {s.places[b].faces, s.places[b].bounds, lower, upper},
+                                 {s.places[b].faces, s.places[b].bounds, shift.lower, shift.upper},
                                  [&](uint32_t faceA, uint32_t faceB) {
                                    s.near.push_back({a, b, faceA, faceB});
                                  });

@@ -48,10 +48,23 @@ struct FoundTouch {
   Vec3 off;  ///< [m] from the second to the first; tells touches of one place
 };
 
+/// Two features, as SoftTouch names them.
+struct FeatureNames {
+  TouchKind kind = TouchKind::PointFace;
+  uint32_t first = kNone, firstPart = 0, second = kNone, secondPart = 0;
+  bool within() const { return first == second; }
+  SoftTouch touch() const {
+    SoftTouch named;
+    named.kind = kind;
+    named.first = first, named.firstPart = firstPart;
+    named.second = second, named.secondPart = secondPart;
+    return named;
+  }
+};
+
 /// Two features that come near each other, and how they lie at the start.
 struct NearContact {
-  TouchKind kind = TouchKind::PointFace;
-  uint32_t first = kNone, firstPart = 0, second = kNone, secondPart = 0;  ///< as of SoftTouch
+  FeatureNames names;
   Vec3 direction;  ///< unit, from the second's nearest point to the first's
   float distance = 0;
 };
@@ -64,6 +77,7 @@ struct FlatScratch {
 
 struct SoftSurfaces {
   FlatScratch flatness;
+  std::vector<uint32_t> shapes;       ///< near one body
   std::vector<NearContact> contacts;  ///< of the search at the start
   std::vector<SoftPlace> places;      ///< by slot
   std::vector<NearFaces> near;        ///< by the slots
@@ -81,6 +95,8 @@ struct SoftSurfaces {
 /// How far apart two points are at the start, and how much one goes on beyond the other.
 struct PlaceShift {
   Vec3 start, drift;
+  /// A box of the one body, as the other may meet it.
+  Aabb of(const Aabb& box) const { return swept({box.lower + start, box.upper + start}, drift); }
 };
 /// Of b's frame in a's.
 PlaceShift shiftOf(const SoftPlace& a, const SoftPlace& b);

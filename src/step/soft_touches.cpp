@@ -20,7 +20,7 @@ bool mayTouchSoft(const WorldData& world, const SoftTouch& touch) {
   if (!filtersMeet(world.shapes[a].filter, world.shapes[b].filter)) return false;
   if (world.excludedPairs.empty()) return true;
   const std::array<uint32_t, 4> nodes = nodesOf(world, touch);
-  const size_t split = touch.kind == TouchKind::EdgeEdge ? 2 : 1;
+  const auto split = static_cast<size_t>(firstNodes(touch.kind));
   for (size_t i = 0; i < split; ++i)
     for (size_t k = split; k < 4; ++k)
       if (isExcluded(world, nodes[i], nodes[k])) return false;

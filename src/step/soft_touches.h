@@ -21,8 +21,7 @@ bool sleeps(const WorldData& world, const SoftTouch& touch);
 float thicknessOf(const WorldData& world, const NearFeatures& near);
 /// How two features lie at the start of the step.
 struct FeatureContact {
-  Vec3 place;  ///< as SoftTouch::anchor
-  Vec3 off;    ///< [m] from the second's nearest point to the first's
+  Vec3 place, off;  ///< [m] as of NearestFeatures
   float distance = 0;
   bool counts = true;  ///< not the same place as another feature's, nor behind a solid's surface
 };
