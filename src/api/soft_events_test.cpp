@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/soft_cases.h"
+#include "step/event_counts.h"
 
 namespace avbd {
 namespace {
@@ -43,21 +44,6 @@ Vec3d forceOn(const World& world, SoftId soft, SoftId by) {
     }
   }
   return sum;
-}
-
-struct Counts {
-  int begins = 0, ends = 0, enters = 0, leaves = 0, hits = 0;
-};
-Counts countOver(World& world, int steps) {
-  Counts n;
-  for (int i = 0; i < steps; ++i) {
-    world.step(kDt);
-    const Events& e = world.events();
-    n.begins += static_cast<int>(e.begins.size()), n.ends += static_cast<int>(e.ends.size());
-    n.enters += static_cast<int>(e.enters.size()), n.leaves += static_cast<int>(e.leaves.size());
-    n.hits += static_cast<int>(e.hits.size());
-  }
-  return n;
 }
 
 struct TwoOnTheGround : testing::Test {

@@ -6,25 +6,13 @@
 #include <set>
 #include <vector>
 
+#include "step/event_counts.h"
+
 namespace avbd {
 namespace {
 
 constexpr float kDt = 1.0f / 60;
 
-struct Counts {
-  int begins = 0, ends = 0, enters = 0, leaves = 0, hits = 0;
-};
-Counts countOver(World& world, int steps) {
-  Counts n;
-  for (int i = 0; i < steps; ++i) {
-    world.step(kDt);
-    const Events& e = world.events();
-    n.begins += static_cast<int>(e.begins.size()), n.ends += static_cast<int>(e.ends.size());
-    n.enters += static_cast<int>(e.enters.size()), n.leaves += static_cast<int>(e.leaves.size());
-    n.hits += static_cast<int>(e.hits.size());
-  }
-  return n;
-}
 BodyId addGround(World& world) { return world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}}); }
 /// With this one shape; a trigger has no mass of its own.
 BodyId addBody(World& world, BodyDef def, const ShapeDef& shape) {

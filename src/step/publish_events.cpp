@@ -17,7 +17,7 @@ namespace {
 void noteHit(const WorldData& world, StepData& step, const PairData& pair, const PointForces& forces) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   HitRecord hit;
-  const bool ofSoft = isParticle(world, pair.bodyA) || isParticle(world, pair.bodyB);
+  const bool ofSoft = anyIsParticle(world, pair.bodyA, pair.bodyB);
   hit.key = ofSoft ? thingPair(world, pair.shapeA, pair.shapeB) : pair.key();
   hit.order = static_cast<uint32_t>(step.hits.size());
   hit.event = {pair.shapeId(0), pair.shapeId(1), pair.bodyId(0), pair.bodyId(1), pair.origin, pair.normal, 0, 0};
@@ -97,11 +97,6 @@ void publishHits(WorldData& world, StepData& step) {
     }
     if (hit.speed >= world.def.hitSpeed) hits.push_back(hit);
   }
-}
-
-TriggerEvent visitOf(const ShapeId (&shape)[2], const BodyId (&body)[2], bool triggerIsA) {
-  const int trigger = triggerIsA ? 0 : 1, visitor = 1 - trigger;
-  return {shape[trigger], shape[visitor], body[trigger], body[visitor], {}};
 }
 
 /// A pair of the list whose touching has changed.
@@ -192,7 +187,7 @@ void publishLost(WorldData& world, StepData& step) {
 /// Triggers that fast bodies entered and left within the step; soft bodies leave in the next one.
 void publishCrossings(WorldData& world, StepData& step) {
   for (const TriggerEvent& e : step.continuous.crossings) {
-    if (isParticle(world, world.bodyIds.slot(e.visitorBody)) || isParticle(world, world.bodyIds.slot(e.triggerBody)))
+    if (anyIsParticle(world, world.bodyIds.slot(e.visitorBody), world.bodyIds.slot(e.triggerBody)))
       noteSoftVisit(world, step, world.shapeIds.slot(e.trigger), world.shapeIds.slot(e.visitor), true);
     else
       world.events.enters.push_back(e), world.events.leaves.push_back(e);

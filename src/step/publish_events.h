@@ -8,6 +8,12 @@ namespace avbd {
 /// Normal forces of a contact's points over a substep, rebounds included [N].
 using PointForces = std::array<float, kMaxManifoldPoints>;
 
+/// Of a pair with a trigger, which no soft body visits.
+inline TriggerEvent visitOf(const ShapeId (&shape)[2], const BodyId (&body)[2], bool triggerIsA) {
+  const int trigger = triggerIsA ? 0 : 1, visitor = 1 - trigger;
+  return {shape[trigger], shape[visitor], body[trigger], body[visitor], {}};
+}
+
 /// At the start of a step. The events of the last one stay until the end of this one.
 void beginEvents(WorldData& world, StepData& step);
 /// A contact that was solved, while the bodies' velocities and the points' forces are still those of the start of the

@@ -36,20 +36,18 @@ struct Push {
   float force;
 };
 
-SoftNote& addPush(const WorldData& world, StepData& step, const Push& push) {
+/// A soft body's touch is told of as soon as one of its points asks.
+void addPush(const WorldData& world, StepData& step, const Push& push) {
   SoftNote& note = noteOf(world, step, push.shapeA, push.shapeB);
   note.impulse += push.force * step.h;
-  if (push.force <= note.most) return note;
-  const bool reports = note.pair.reports;
-  note.pair = softPair(world, push.shapeA, push.shapeB);
+  const bool reports =
+      note.pair.reports || (world.shapes[push.shapeA].contactEvents && world.shapes[push.shapeB].contactEvents);
+  if (push.force > note.most) {
+    note.pair = softPair(world, push.shapeA, push.shapeB);
+    note.pair.position = push.position, note.pair.normal = push.normal;
+    note.most = push.force;
+  }
   note.pair.reports = reports;
-  note.pair.position = push.position, note.pair.normal = push.normal;
-  note.most = push.force;
-  return note;
-}
-
-bool wantsEvents(const WorldData& world, uint32_t a, uint32_t b) {
-  return world.shapes[a].contactEvents && world.shapes[b].contactEvents;
 }
 
 /// [m/s] at which the two sides of a touch come nearer, when the substep began.
@@ -118,10 +116,9 @@ bool rests(const WorldData& world, const SoftPair& pair) {
 void tell(Events& events, const SoftPair& pair, bool begins, float impulse) {
   if (!pair.reports) return;
   if (pair.isTrigger) {
-    const int trigger = pair.triggerIsA ? 0 : 1, visitor = 1 - trigger;
-    (begins ? events.enters : events.leaves)
-        .push_back(
-            {pair.shape[trigger], pair.shape[visitor], pair.body[trigger], pair.body[visitor], pair.soft[visitor]});
+    TriggerEvent visit = visitOf(pair.shape, pair.body, pair.triggerIsA);
+    visit.visitorSoft = pair.soft[pair.triggerIsA ? 1 : 0];
+    (begins ? events.enters : events.leaves).push_back(visit);
     return;
   }
   (begins ? events.begins : events.ends)
@@ -135,9 +132,8 @@ void noteSoftContact(const WorldData& world, StepData& step, const PairData& pai
   for (int i = 0; i < pair.pointCount; ++i) {
     const float force = forces[static_cast<size_t>(i)];
     if (!(force > 0)) continue;
-    SoftNote& note = addPush(
-        world, step, {pair.shapeA, pair.shapeB, pair.origin + pair.manifold.points[i].position, pair.normal, force});
-    note.pair.reports = note.pair.reports || wantsEvents(world, pair.shapeA, pair.shapeB);
+    addPush(world, step,
+            {pair.shapeA, pair.shapeB, pair.origin + pair.manifold.points[i].position, pair.normal, force});
   }
 }
 
@@ -154,12 +150,9 @@ void noteSoftTouches(const WorldData& world, StepData& step) {
     const FoundTouch& found = step.softTouches[i];
     const float force = world.softTouches[i].lambda.x;
     if (!found.awake || !(force > 0)) continue;
-    const bool turned = contact.shape[0] > contact.shape[1];
-    const uint32_t a = contact.shape[turned ? 1 : 0], b = contact.shape[turned ? 0 : 1];
-    const Push push{a, b, contact.position, turned ? contact.normal : -contact.normal, force};
-    SoftNote& note = addPush(world, step, push);
-    note.pair.reports = note.pair.reports || wantsEvents(world, a, b);
-    if (world.shapes[a].hitEvents || world.shapes[b].hitEvents) noteHit(world, step, found, push);
+    const Push push{contact.shapeA(), contact.shapeB(), contact.position, contact.fromAToB(contact.normal), force};
+    addPush(world, step, push);
+    if (world.shapes[push.shapeA].hitEvents || world.shapes[push.shapeB].hitEvents) noteHit(world, step, found, push);
   }
 }
 

@@ -80,10 +80,6 @@ void dropSame(std::vector<FoundTouch>& all) {
   all.resize(kept);
 }
 
-}  // namespace
-
-namespace {
-
 /// False of NaN: features that are too long for floats (1e10 m and more) have no nearest points.
 bool hasPlace(const FoundTouch& found) {
   const Vec3 normal = found.touch.normal, place = found.touch.anchor;

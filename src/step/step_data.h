@@ -185,7 +185,7 @@ inline FoundContact foundContact(const WorldData& world, const PairData& pair) {
           pair.isFull,
           pair.restitution > 0,
           pair.wasTouching && pair.pointCount == 0,
-          isParticle(world, pair.bodyA) || isParticle(world, pair.bodyB)};
+          anyIsParticle(world, pair.bodyA, pair.bodyB)};
 }
 
 /// What the contact hook wants of a contact beyond its coefficients.

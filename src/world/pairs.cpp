@@ -32,8 +32,8 @@ namespace {
 
 void readWishes(const WorldData& data, PairData& pair) {
   const ShapeData &a = data.shapes[pair.shapeA], &b = data.shapes[pair.shapeB];
-  const bool ofSoft = isParticle(data, pair.bodyA) || isParticle(data, pair.bodyB);
-  pair.reports = !ofSoft && (pair.isTrigger || (a.contactEvents && b.contactEvents));
+  pair.reports =
+      !anyIsParticle(data, pair.bodyA, pair.bodyB) && (pair.isTrigger || (a.contactEvents && b.contactEvents));
   pair.wantsHits = a.hitEvents || b.hitEvents;
   pair.hasHook = a.contactHook || b.contactHook;
 }

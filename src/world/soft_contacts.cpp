@@ -36,24 +36,21 @@ uint32_t nameOf(const SoftContact& contact) {
 }  // namespace
 
 Contact contactOf(const WorldData& data, const SoftContact& from) {
-  // A has the lower slot, as in pairs.
-  const bool turned = from.shape[0] > from.shape[1];
-  const uint32_t a = from.shape[turned ? 1 : 0], b = from.shape[turned ? 0 : 1];
-  const SoftPair ids = softPair(data, a, b);
+  const SoftPair ids = softPair(data, from.shapeA(), from.shapeB());
   Contact contact;
   contact.shapeA = ids.shape[0], contact.shapeB = ids.shape[1];
   contact.bodyA = ids.body[0], contact.bodyB = ids.body[1];
   contact.softA = ids.soft[0], contact.softB = ids.soft[1];
-  if (from.kind != TouchKind::EdgeEdge) (turned ? contact.elementA : contact.elementB) = from.secondPart;
-  contact.touch = softPhase(data, a, b);
-  contact.normal = turned ? from.normal : -from.normal;
+  if (from.kind != TouchKind::EdgeEdge) (from.isTurned() ? contact.elementA : contact.elementB) = from.secondPart;
+  contact.touch = softPhase(data, from.shapeA(), from.shapeB());
+  contact.normal = from.fromAToB(from.normal);
   contact.pointCount = 1;
   ContactPoint& point = contact.points[0];
   point = {};
   point.position = from.position;
   point.separation = from.separation;
   point.normalForce = from.normalForce;
-  point.frictionForce = turned ? from.frictionForce : -from.frictionForce;
+  point.frictionForce = from.fromAToB(from.frictionForce);
   point.feature = nameOf(from);
   return contact;
 }

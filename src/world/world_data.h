@@ -177,6 +177,11 @@ struct SoftContact {
   float separation = 0;                     ///< [m]
   float normalForce = 0;                    ///< [N] mean over the step, as the next
   Vec3 frictionForce;                       ///< [N] on the first
+  // As pairs name them: A has the lower slot.
+  bool isTurned() const { return shape[0] > shape[1]; }  ///< the first is B
+  uint32_t shapeA() const { return shape[isTurned() ? 1 : 0]; }
+  uint32_t shapeB() const { return shape[isTurned() ? 0 : 1]; }
+  Vec3 fromAToB(Vec3 toFirst) const { return isTurned() ? toFirst : -toFirst; }
   /// By whose it is, as touches.
   friend bool operator<(const SoftContact& a, const SoftContact& b) {
     return std::tie(a.kind, a.first, a.firstPart, a.second, a.secondPart) <
@@ -273,6 +278,9 @@ struct WorldData {
 /// Of a soft body: it does not turn. False of kNone.
 inline bool isParticle(const WorldData& data, uint32_t body) {
   return body != kNone && data.bodies[body].soft != kNone;
+}
+inline bool anyIsParticle(const WorldData& data, uint32_t bodyA, uint32_t bodyB) {
+  return isParticle(data, bodyA) || isParticle(data, bodyB);
 }
 
 /// False of kNone, the world.
