@@ -29,7 +29,8 @@ bool surfaceFrame(Vec3 normal, Vec3 toNeighbour, SurfaceFrame& frame) {
   return true;
 }
 
-SurfaceAtRest::SurfaceAtRest(std::span<const Vec3> points, std::span<const std::array<uint32_t, 3>> faces)
+SurfaceAtRest::SurfaceAtRest(std::span<const Vec3> points, const FaceTree& tree,
+                             std::span<const std::array<uint32_t, 3>> faces)
     : neighbour(points.size()), frames(points.size()) {
   std::vector<Vec3> sums(points.size());
   for (uint32_t i = 0; i < points.size(); ++i) neighbour[i] = i;
@@ -44,6 +45,23 @@ SurfaceAtRest::SurfaceAtRest(std::span<const Vec3> points, std::span<const std::
   }
   // A point whose faces have no mean normal keeps no frame: it counts as turned.
   for (size_t i = 0; i < points.size(); ++i) surfaceFrame(sums[i], points[neighbour[i]] - points[i], frames[i]);
+  tree.refit(
+      ranges,
+      [&](uint32_t f) {
+        return RestRange{{centres[f], centres[f]}, {normals[f], normals[f]}};
+      },
+      [](const RestRange& a, const RestRange& b) {
+        return RestRange{merge(a.centres, b.centres), merge(a.normals, b.normals)};
+      });
+}
+
+bool SurfaceAtRest::nodesAreBeside(uint32_t a, uint32_t b, float size) const {
+  const Aabb centres = merge(ranges[a].centres, ranges[b].centres);
+  const Vec3 off = centres.upper - centres.lower;
+  if (!(dot(off, off) < size * size)) return false;
+  const Aabb normals = merge(ranges[a].normals, ranges[b].normals);
+  const Vec3 apart = normals.upper - normals.lower;
+  return dot(apart, apart) < 2 - 2 * kAlike;  // of unit vectors the square of what parts them
 }
 
 bool SurfaceAtRest::areBeside(uint32_t a, uint32_t b, float size, bool isCloth) const {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "avbd/types.h"
+#include "geom/face_tree.h"
 
 namespace avbd {
 
@@ -16,17 +16,25 @@ struct SurfaceFrame {
   Vec3 normal, along;
 };
 
+/// Of several faces at rest: their centres and normals stand between these.
+struct RestRange {
+  Aabb centres, normals;
+};
+
 struct SurfaceAtRest {
   std::vector<Vec3> centres, normals;  ///< of the faces; normals are units
   std::vector<uint32_t> neighbour;     ///< by point: another of the same face; itself of a point of no face
   std::vector<SurfaceFrame> frames;    ///< by point
+  std::vector<RestRange> ranges;       ///< by node of the tree
 
   SurfaceAtRest() = default;
-  SurfaceAtRest(std::span<const Vec3> points, std::span<const std::array<uint32_t, 3>> faces);
+  SurfaceAtRest(std::span<const Vec3> points, const FaceTree& tree, std::span<const std::array<uint32_t, 3>> faces);
 
   /// Whether two faces lie beside each other: nearer than `size`, and neither before the other. While the surface
   /// around them turns as one, they do not come together.
   bool areBeside(uint32_t a, uint32_t b, float size, bool isCloth) const;
+  /// Whether all faces below two nodes of the tree do.
+  bool nodesAreBeside(uint32_t a, uint32_t b, float size) const;
 };
 
 /// Unit normal of a triangle; 0 of one without area.

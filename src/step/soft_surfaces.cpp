@@ -117,7 +117,10 @@ void nearWithin(const SoftData& soft, const SoftPlace& place, uint32_t slot, std
   const auto faces = soft.mesh->surface();
   const float size = kBeside * soft.mesh->faceSize();
   const bool isCloth = soft.mesh->isCloth();
-  soft.mesh->faceTree().pairs({place.faces, place.bounds, {}, {}}, [&](uint32_t a, uint32_t b) {
+  const auto skip = [&](uint32_t a, uint32_t b) {
+    return rest.nodesAreBeside(a, b, size) && nodesTurnAsOne(place.turns, a, b);
+  };
+  soft.mesh->faceTree().pairs({place.faces, place.bounds, {}, {}}, skip, [&](uint32_t a, uint32_t b) {
     if (!rest.areBeside(a, b, size, isCloth) || !turnAsOne(place.turns, faces[a][0], faces[b][0]))
       near.push_back({slot, slot, a, b});
   });

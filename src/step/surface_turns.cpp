@@ -70,19 +70,48 @@ void spreadTurns(const SoftMeshData& mesh, std::vector<float>& spreads, std::vec
   }
 }
 
+TurnRange merge(const TurnRange& a, const TurnRange& b) {
+  return {avbd::merge(a.x, b.x), avbd::merge(a.y, b.y), avbd::merge(a.z, b.z), std::max(a.spread, b.spread)};
+}
+
+TurnRange rangeOf(const PointTurn& t) { return {{t.x, t.x}, {t.y, t.y}, {t.z, t.z}, t.spread}; }
+
+void findRanges(const SoftMeshData& mesh, TurnsThen& turns) {
+  const auto faces = mesh.surface();
+  const auto of = [&](uint32_t face) {
+    const auto& [a, b, c] = faces[face];
+    return merge(rangeOf(turns.points[a]), merge(rangeOf(turns.points[b]), rangeOf(turns.points[c])));
+  };
+  mesh.faceTree().refit(turns.nodes, of, [](const TurnRange& a, const TurnRange& b) { return merge(a, b); });
+}
+
 bool asOne(const PointTurn& a, const PointTurn& b) { return a.spread < kAsOne && difference(a, b) + b.spread < kAsOne; }
+
+bool asOne(const TurnRange& a, const TurnRange& b) {
+  const TurnRange both = merge(a, b);
+  if (!(both.spread < kAsOne)) return false;
+  const Vec3 x = both.x.upper - both.x.lower, y = both.y.upper - both.y.lower, z = both.z.upper - both.z.lower;
+  const float left = kAsOne - both.spread;
+  return 0.5f * (dot(x, x) + dot(y, y) + dot(z, z)) < left * left;
+}
 
 }  // namespace
 
 void findTurns(const SoftMeshData& mesh, const SoftPlace& place, TurnScratch& scratch, SurfaceTurns& turns) {
-  turnPoints(mesh, place.normals, scratch.normals, place.points, nullptr, turns.start);
-  spreadTurns(mesh, scratch.spreads, turns.start);
-  turnPoints(mesh, place.endNormals, scratch.normals, place.points, &place.ways, turns.end);
-  spreadTurns(mesh, scratch.spreads, turns.end);
+  turnPoints(mesh, place.normals, scratch.normals, place.points, nullptr, turns.start.points);
+  turnPoints(mesh, place.endNormals, scratch.normals, place.points, &place.ways, turns.end.points);
+  for (TurnsThen* then : {&turns.start, &turns.end}) {
+    spreadTurns(mesh, scratch.spreads, then->points);
+    findRanges(mesh, *then);
+  }
 }
 
 bool turnAsOne(const SurfaceTurns& turns, uint32_t a, uint32_t b) {
-  return asOne(turns.start[a], turns.start[b]) && asOne(turns.end[a], turns.end[b]);
+  return asOne(turns.start.points[a], turns.start.points[b]) && asOne(turns.end.points[a], turns.end.points[b]);
+}
+
+bool nodesTurnAsOne(const SurfaceTurns& turns, uint32_t a, uint32_t b) {
+  return asOne(turns.start.nodes[a], turns.start.nodes[b]) && asOne(turns.end.nodes[a], turns.end.nodes[b]);
 }
 
 }  // namespace avbd

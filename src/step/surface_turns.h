@@ -20,9 +20,20 @@ struct PointTurn {
   float spread;
 };
 
-/// By point, at the start of the step and at the end of the ways.
+/// Those of several points stand between these.
+struct TurnRange {
+  Aabb x, y, z;
+  float spread;
+};
+
+/// At the start of the step or at the end of the ways.
+struct TurnsThen {
+  std::vector<PointTurn> points;
+  std::vector<TurnRange> nodes;  ///< of the tree
+};
+
 struct SurfaceTurns {
-  std::vector<PointTurn> start, end;
+  TurnsThen start, end;
 };
 
 /// Room of the search.
@@ -35,5 +46,7 @@ void findTurns(const SoftMeshData& mesh, const SoftPlace& place, TurnScratch& sc
 
 /// Whether all that is within two edges of either point has turned about as much, at the start and at the end.
 bool turnAsOne(const SurfaceTurns& turns, uint32_t a, uint32_t b);
+/// The same of all points below two nodes of the tree.
+bool nodesTurnAsOne(const SurfaceTurns& turns, uint32_t a, uint32_t b);
 
 }  // namespace avbd
