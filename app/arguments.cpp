@@ -6,6 +6,7 @@
 
 #include "app/failure.h"
 #include "app/near_names.h"
+#include "app/number_text.h"
 #include "bench/bench.h"
 
 namespace avbd::cli {
@@ -70,6 +71,18 @@ void addUrdf(CLI::App& command, UrdfArguments& a) {
       ->group(kUrdf);
 }
 
+void addMaterial(CLI::App& command, MaterialArguments& a) {
+  constexpr const char* kMaterial = "Soft body";
+  const SoftMaterial usual;
+  const auto add = [&](const char* name, std::optional<double>& value, const std::string& what, float otherwise) {
+    command.add_option(name, value, what + " of a soft mesh or --soft [" + digits(double{otherwise}, 6) + "]")
+        ->group(kMaterial);
+  };
+  add("--young", a.young, "Young's modulus [Pa]", usual.youngsModulus);
+  add("--poisson", a.poisson, "Poisson's ratio", usual.poissonRatio);
+  add("--density", a.density, "density [kg/m^3]", usual.density);
+}
+
 void addPort(CLI::App& command, int& port) {
   command.add_option("--port", port, "port of the page on this computer [8642]; 0 for any that is free")
       ->check(CLI::Range(0, 65535));
@@ -97,6 +110,7 @@ CLI::App* addRun(CLI::App& app, RunArguments& a, std::string& solver) {
   run->add_flag_callback(
       "--no-report", [&a] { a.report = false; }, "no report");
   addUrdf(*run, a.urdf);
+  addMaterial(*run, a.material);
   addSettings(*run, a.settings, solver);
   return run;
 }

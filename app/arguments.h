@@ -22,6 +22,11 @@ struct UrdfArguments {
 /// Where a browser finds `play` and `run --live`.
 inline constexpr int kLivePort = 8642;
 
+/// What a soft body from a file is made of, where it is not as usual (SoftMaterial).
+struct MaterialArguments {
+  std::optional<double> young, poisson, density;  ///< [Pa], [], [kg/m^3]
+};
+
 struct RunArguments {
   std::string scene;               ///< a file, or a scene's name or alias
   std::optional<double> time, dt;  ///< [s]; not set: the file's or scene's own
@@ -35,6 +40,7 @@ struct RunArguments {
   int port = kLivePort;            ///< of `live`
   std::optional<std::string> keyframe;
   std::optional<double> soft;  ///< [m] cell of the lattice that a surface becomes
+  MaterialArguments material;
   UrdfArguments urdf;
   bool json = false, report = true;
   scenes::Settings settings;

@@ -70,6 +70,7 @@ RunFigures measureRun(const Model& model, int64_t steps, double dt) {
   f.joints = world.jointCount();
   f.probes = model.probes.size();
   f.softs = softFiguresOf(model);
+  if (!f.softs.empty()) f.softContacts = softContactsOf(world);
   f.contactPoints = world.report().points;
   f.steps = steps;
   f.dt = dt;

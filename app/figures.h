@@ -19,6 +19,7 @@ struct RunFigures {
   size_t statics = 0, shapes = 0, joints = 0, contactPoints = 0;
   size_t probes = 0;  ///< of the model
   std::vector<SoftFigures> softs;
+  SoftContactFigures softContacts;
   int64_t steps = 0;
   double dt = 0;
   int workers = 1;

@@ -93,7 +93,11 @@ std::string jsonText(const RunFigures& f) {
             {"kinetic_energy", f.kineticEnergy},
             {"finite", f.finite},
             {"hash", hashText(f.hash)}};
-  if (!f.softs.empty()) json["soft_bodies"] = softsJson(f.softs);
+  if (!f.softs.empty()) {
+    json["soft_bodies"] = softsJson(f.softs);
+    json["soft_overlap_max"] = f.softContacts.overlapMax;
+    json["soft_crossings"] = f.softContacts.crossings;
+  }
   return text(json);
 }
 

@@ -102,14 +102,33 @@ Model loadUrdf(const RunArguments& a) {
   return readUrdf(a.scene, options);
 }
 
+void refuseMaterial(const MaterialArguments& a, const std::string& scene) {
+  const auto refuse = [&](const char* name, const std::optional<double>& value) {
+    if (value)
+      throw BadInput(std::string(name) + " " + digits(*value, 9) + ": " + scene +
+                     " is not a soft mesh (--soft makes a closed surface one)");
+  };
+  refuse("--young", a.young), refuse("--poisson", a.poisson), refuse("--density", a.density);
+}
+
+/// Numbers beyond a float's are told by the world that refuses them.
+SoftMaterial materialOf(const MaterialArguments& a) {
+  SoftMaterial material;
+  if (a.young) material.youngsModulus = static_cast<float>(*a.young);
+  if (a.poisson) material.poissonRatio = static_cast<float>(*a.poisson);
+  if (a.density) material.density = static_cast<float>(*a.density);
+  return material;
+}
+
 }  // namespace
 
 Model loadModel(const RunArguments& a) {
   if (a.soft || isSoftMeshFile(a.scene)) {
     if (a.keyframe) throw BadInput("--keyframe " + *a.keyframe + ": a soft mesh has no keyframes");
     refuseUrdfOptions(a.urdf, a.scene);
-    return dropped(readSoft(a.scene, a.soft), a.scene, a.settings);
+    return dropped(readSoft(a.scene, a.soft), a.scene, materialOf(a.material), a.settings);
   }
+  refuseMaterial(a.material, a.scene);
   if (const scenes::Scene* scene = scenes::find(a.scene)) {
     if (a.keyframe) throw BadInput("--keyframe " + *a.keyframe + ": scene " + a.scene + " has no keyframes");
     refuseUrdfOptions(a.urdf, "scene " + a.scene);

@@ -86,7 +86,9 @@ ReportLines reportLines(const RunFigures& f) {
       {"hash", hashText(f.hash)},
   };
   constexpr std::ptrdiff_t kBehindBodies = 2;
-  if (!f.softs.empty()) lines.insert(lines.begin() + kBehindBodies, {"soft bodies", softsText(f.softs)});
+  if (!f.softs.empty())
+    lines.insert(lines.begin() + kBehindBodies,
+                 {{"soft bodies", softsText(f.softs)}, {"soft surfaces", softContactsText(f.softContacts)}});
   addNotes(lines, f.notes);
   return lines;
 }

@@ -56,6 +56,19 @@ TEST(Run, ASoftBodyOfASurfaceFalls) {
   EXPECT_GT(json["contact_points"].get<int>(), 0);
   const Invoked refused = invoke({"run", file, "--soft", "0.5", "--floating"});
   EXPECT_NE(refused.err.find("--floating"), std::string::npos) << refused.err;
+  EXPECT_EQ(json["soft_crossings"], 0);
+  EXPECT_LT(json["penetration_max"].get<double>(), 0.005) << "its own points are no penetration";
+  const std::vector<std::string> stiffer{"--young", "1e7", "--poisson", "0.45", "--density", "500"};
+  std::vector<std::string> arguments{"run", file, "--soft", "0.5", "--time", "0.5", "--json"};
+  arguments.insert(arguments.end(), stiffer.begin(), stiffer.end());
+  const Json stiff = Json::parse(invoke(arguments).out);
+  EXPECT_LT(std::abs(stiff["soft_bodies"][0]["strain_max"].get<double>()),
+            0.5 * std::abs(json["soft_bodies"][0]["strain_max"].get<double>()));
+  const auto complaint = [&](std::vector<std::string> with) { return invoke(std::move(with)).err; };
+  EXPECT_NE(complaint({"run", file, "--soft", "0.5", "--poisson", "0.6"}).find("SoftDef.material.poissonRatio = 0.6"),
+            std::string::npos);
+  EXPECT_NE(complaint({"run", "chain", "--density", "5"}).find("--density 5: chain is not a soft mesh"),
+            std::string::npos);
 }
 
 TEST(Run, PrintsExactlyTheKeysOfTheReport) {

@@ -1,10 +1,12 @@
 // Measuring soft bodies.
 #include "app/soft_figures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
 #include "app/number_text.h"
+#include "scenes/crossings.h"
 
 namespace avbd::cli {
 namespace {
@@ -45,6 +47,21 @@ std::vector<SoftFigures> softFiguresOf(const Model& model) {
     all.push_back(figuresOf(model.world, id, std::move(name)));
   }
   return all;
+}
+
+SoftContactFigures softContactsOf(const World& world) {
+  SoftContactFigures figures;
+  for (const Contact& contact : world.contacts()) {
+    if (!contact.softA || !contact.softB) continue;
+    for (int i = 0; i < contact.pointCount; ++i)
+      figures.overlapMax = std::max(figures.overlapMax, -double{contact.points[static_cast<size_t>(i)].separation});
+  }
+  figures.crossings = scenes::crossings(world);
+  return figures;
+}
+
+std::string softContactsText(const SoftContactFigures& figures) {
+  return digits(1000 * figures.overlapMax, 4) + " mm of overlap, " + std::to_string(figures.crossings) + " crossings";
 }
 
 std::string softsText(const std::vector<SoftFigures>& softs) {

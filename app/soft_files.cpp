@@ -111,7 +111,8 @@ ReportLines reportLines(const SoftMeshInfo& info) {
   return lines;
 }
 
-Model dropped(const SoftFile& soft, const std::string& name, const scenes::Settings& settings) {
+Model dropped(const SoftFile& soft, const std::string& name, const SoftMaterial& material,
+              const scenes::Settings& settings) {
   const SoftMeshInfo info = infoOf(soft, name);
   const float radius = std::min(0.01f, soft.mesh->faceSize() / 4);
   const Vec3d size = info.upper - info.lower;
@@ -122,6 +123,7 @@ Model dropped(const SoftFile& soft, const std::string& name, const scenes::Setti
       "soft",
       {.mesh = soft.mesh,
        .pose = {{-(info.lower.x + info.upper.x) / 2, above - info.lower.y, -(info.lower.z + info.upper.z) / 2}, {}},
+       .material = material,
        .radius = radius});
   Model model = build.take();
   model.notes = soft.notes;

@@ -33,6 +33,7 @@ SoftFile readSoft(const std::string& file, std::optional<double> cell);
 SoftMeshInfo infoOf(const SoftFile& soft, const std::string& name);
 ReportLines reportLines(const SoftMeshInfo& info);
 /// The soft body above a ground.
-Model dropped(const SoftFile& soft, const std::string& name, const scenes::Settings& settings);
+Model dropped(const SoftFile& soft, const std::string& name, const SoftMaterial& material,
+              const scenes::Settings& settings);
 
 }  // namespace avbd::cli

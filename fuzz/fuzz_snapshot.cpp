@@ -41,12 +41,23 @@ void addJoints(World& world, BodyId a, BodyId b) {
   world.create(CustomJoint{.family = std::make_shared<Spring>(), .bodies = {b}, .bodyCount = 1, .memory = {1, 2}});
 }
 
+void addSofts(World& world) {
+  world.create(SoftDef{.mesh = makeTetBox({0.2f, 0.2f, 0.2f}, 1, 1, 1),
+                       .pose = {{0, 0.22, 0}, {}},
+                       .material = {.poissonRatio = 0.4999f}});
+  world.create(SoftDef{.mesh = makeClothGrid(0.4f, 0.4f, 2, 2),
+                       .pose = {{0.05, 0.45, 0.02}, {}},
+                       .velocity = {{0, -1, 0}, {}},
+                       .material = {.maxStrain = 0.1f}});
+}
+
 World make(uint32_t kind) {
   World world({.substeps = kind == 1 ? 2 : 1});
   world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
   if (kind == 2) world.create(BodyDef{.type = BodyType::Static, .position = {0, 0.2, 0}, .shape = Mesh{someMesh()}});
+  if (kind == 4) addSofts(world);
   BodyId last{};
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < (kind == 4 ? 1 : 3); ++i) {
     const Geometry shape = i == 1 ? Geometry(Hull{someHull(), {0.5f, 0.4f, 0.5f}}) : Geometry(Box{0.4f, 0.3f, 0.4f});
     const BodyId body = world.create(
         BodyDef{.position = {0.1 * i, 0.6 + 0.7 * i, 0}, .shape = shape, .material = {.restitution = 0.3f}});
@@ -98,6 +109,7 @@ void use(World& world) {
     const uint64_t hash = world.hash();
     world.restore(again);
     require(world.hash() == hash, "what was restored is not what was saved");
+    for (const SoftId soft : world.softBodies()) world.destroy(soft);
     const std::vector<BodyId> bodies = world.bodies();
     for (const BodyId body : bodies) world.destroy(body);
     world.step(1.0f / 60);
@@ -114,7 +126,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace avbd::fuzz;
   if (size == 0) return 0;
   Bytes in(data + 1, size - 1);
-  const uint32_t kind = data[0] % 4;
+  const uint32_t kind = (data[0] & 63) % 5;
   World world = make(kind);
   std::vector<std::byte> bytes;
   world.save(bytes);

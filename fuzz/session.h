@@ -3,6 +3,7 @@
 
 #include <avbd/avbd.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <set>
@@ -28,7 +29,13 @@ class Session {
   uint64_t run();
 
  private:
-  using Pair = std::pair<ShapeId, ShapeId>;
+  /// As events count: a soft body or, with a null id of that, a shape.
+  using Thing = std::pair<SoftId, ShapeId>;
+  using Pair = std::pair<Thing, Thing>;
+  static Pair pairOf(SoftId softA, ShapeId shapeA, SoftId softB, ShapeId shapeB) {
+    const Thing a{softA, softA ? ShapeId{} : shapeA}, b{softB, softB ? ShapeId{} : shapeB};
+    return std::minmax(a, b);
+  }
 
   template <class Call>
   void attempt(Call&& call);
@@ -55,6 +62,8 @@ class Session {
   void make();
   void makeJoint();
   void makeSoft();
+  SoftMaterial softMaterial();
+  SoftDef softDef();
   void makeMovingJoint(uint32_t kind, BodyId a, BodyId b, const Pose& frameA, const Pose& frameB);
   D6Axis axis();
   BodyDef bodyDef();
@@ -109,6 +118,9 @@ class Session {
   void checkVisits();
   void checkContacts() const;
   bool everLived(ShapeId id) const;
+  bool lives(const Thing& thing) const {
+    return thing.first ? world_.isAlive(thing.first) : world_.isAlive(thing.second);
+  }
 
   Bytes& in_;
   World world_;

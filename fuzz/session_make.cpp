@@ -162,22 +162,61 @@ void Session::makeSoft() {
       for (const BodyId particle : particles) bodyGone(particle);
       return;
     }
-    SoftDef def;
-    const int cells = 1 + static_cast<int>(in_.below(2));
-    if (in_.byte() < 250) def.mesh = makeTetBox({0.3f, 0.2f, 0.4f}, cells, 1, 1);
-    def.pose = placePose();
-    if (in_.flag()) def.velocity = {in_.vector(), in_.vector()};
-    if (in_.flag()) def.material = {in_.number(), in_.number(), in_.number()};
-    if (in_.flag()) def.radius = in_.number();
-    def.surface = material();
-    def.filter = filter();
+    const SoftDef def = softDef();
     const SoftId made = world_.create(def);
     softs_.push_back(made);
     for (const BodyId particle : world_.particles(made)) {
       bodies_.push_back(particle);
-      for (const ShapeId shape : world_.shapes(particle)) shapes_.push_back(shape);
+      for (const ShapeId shape : world_.shapes(particle)) {
+        shapes_.push_back(shape);
+        if (!def.contactEvents) silent_.insert(shape);
+      }
     }
   });
+}
+
+/// Each field mostly in its range, often at its bounds, sometimes beyond.
+SoftMaterial Session::softMaterial() {
+  SoftMaterial m;
+  const auto stiffness = [&] {
+    return in_.byte() < 230 ? 1e3f * static_cast<float>(1 << in_.below(16)) : in_.number();
+  };
+  if (in_.flag()) m.youngsModulus = stiffness();
+  constexpr float kPoisson[] = {-0.9f, -0.3f, 0, 0.25f, 0.45f, 0.49f, 0.499f, 0.4999f};
+  if (in_.flag()) m.poissonRatio = in_.byte() < 240 ? kPoisson[in_.below(std::size(kPoisson))] : in_.number() / 8;
+  if (in_.flag()) m.density = in_.byte() < 240 ? 10 * static_cast<float>(1 + in_.byte()) : in_.number();
+  if (in_.flag()) m.thickness = in_.byte() < 240 ? 1e-3f * static_cast<float>(1 + in_.byte()) : in_.number();
+  if (in_.flag()) m.bending = in_.number();
+  if (in_.flag()) m.damping = in_.byte() < 240 ? in_.positive() / 16 : in_.number();
+  if (in_.flag()) m.maxStrain = in_.byte() < 240 ? 1e-3f * static_cast<float>(1 + in_.byte()) : in_.number();
+  if (in_.byte() > 150) m.warp = in_.byte() < 240 ? Vec3{1, 0, in_.flag() ? 0.5f : 0.0f} : in_.vector();
+  if (m.warp != Vec3{} || in_.byte() > 250) {
+    if (in_.flag()) m.weftModulus = stiffness();
+    if (in_.flag()) m.shearModulus = stiffness();
+  }
+  return m;
+}
+
+SoftDef Session::softDef() {
+  SoftDef def;
+  const uint8_t kind = in_.byte();
+  const int cells = 1 + static_cast<int>(in_.below(2));
+  if (kind < 150)
+    def.mesh = makeTetBox({0.3f, 0.2f, 0.4f}, cells, 1, 1);
+  else if (kind < 250)
+    def.mesh = makeClothGrid(1, 0.7f, 2 * cells, cells);
+  def.pose = placePose();
+  if (in_.flag()) def.velocity = {in_.vector(), in_.vector()};
+  def.material = softMaterial();
+  if (in_.flag()) def.radius = in_.byte() < 240 ? 1e-3f * static_cast<float>(1 + in_.byte()) : in_.number();
+  def.surface = material();
+  def.filter = filter();
+  const uint8_t flags = in_.byte();
+  def.selfContact = (flags & 3) != 0;
+  def.contactEvents = (flags & 12) != 0;
+  def.hitEvents = flags & 16;
+  def.canSleep = (flags & 96) != 0;
+  return def;
 }
 
 void Session::makeJoint() {

@@ -60,8 +60,7 @@ std::set<Session::Pair> Session::follow(std::set<Pair>& now, const std::set<Pair
   for (const Pair& pair : ends) now.erase(pair);
   for (const Pair& pair : begins)
     if (before.count(pair) == ends.count(pair)) now.insert(pair);
-  for (const Pair& pair : now)
-    require(world_.isAlive(pair.first) && world_.isAlive(pair.second), "a dead shape goes on");
+  for (const Pair& pair : now) require(lives(pair.first) && lives(pair.second), "what is dead goes on");
   return ever;
 }
 
@@ -71,13 +70,16 @@ void Session::checkTouches() {
   std::set<Pair> begins, ends;
   for (const TouchEvent& e : events.ends) {
     require(everLived(e.shapeA) && everLived(e.shapeB), "an end of a shape that never was");
-    require(ends.insert({e.shapeA, e.shapeB}).second, "two ends of one pair");
+    require(ends.insert(pairOf(e.softA, e.shapeA, e.softB, e.shapeB)).second, "two ends of one pair");
   }
   for (const TouchEvent& e : events.begins) {
     require(world_.isAlive(e.shapeA) && world_.isAlive(e.shapeB), "a begin of a dead shape");
     require(world_.body(e.shapeA) == e.bodyA && world_.body(e.shapeB) == e.bodyB, "a begin of other bodies");
-    require(!silent_.count(e.shapeA) && !silent_.count(e.shapeB), "a begin that nobody asked for");
-    require(begins.insert({e.shapeA, e.shapeB}).second, "two begins of one pair");
+    require(world_.softBody(e.bodyA) == e.softA && world_.softBody(e.bodyB) == e.softB, "a begin of other soft bodies");
+    // Of a soft body some points may ask and others not.
+    require((e.softA || !silent_.count(e.shapeA)) && (e.softB || !silent_.count(e.shapeB)),
+            "a begin that nobody asked for");
+    require(begins.insert(pairOf(e.softA, e.shapeA, e.softB, e.shapeB)).second, "two begins of one pair");
   }
   const std::set<Pair> touched = follow(touching_, begins, ends);
   for (const Contact& contact : world_.contacts()) {
@@ -85,7 +87,9 @@ void Session::checkTouches() {
     for (int i = 0; i < contact.pointCount; ++i)
       carries = carries || contact.points[static_cast<size_t>(i)].normalForce > 0;
     if (!carries || silent_.count(contact.shapeA) || silent_.count(contact.shapeB)) continue;
-    require(touched.count({contact.shapeA, contact.shapeB}) == 1, "a contact that never began");
+    const Pair pair = pairOf(contact.softA, contact.shapeA, contact.softB, contact.shapeB);
+    require(touched.count(pair) == 1, "a contact that never began");
+    require(contact.touch != TouchPhase::None, "a contact that carries and does not touch");
   }
 }
 
@@ -94,12 +98,13 @@ void Session::checkVisits() {
   std::set<Pair> enters, leaves;
   for (const TriggerEvent& e : events.leaves) {
     require(everLived(e.trigger) && everLived(e.visitor), "a leave of a shape that never was");
-    require(leaves.insert({e.trigger, e.visitor}).second, "two leaves of one pair");
+    require(leaves.insert(pairOf({}, e.trigger, e.visitorSoft, e.visitor)).second, "two leaves of one pair");
   }
   for (const TriggerEvent& e : events.enters) {
     require(world_.isAlive(e.trigger) && world_.isAlive(e.visitor), "an enter of a dead shape");
     require(world_.isTrigger(e.trigger), "an enter into what is no trigger");
-    require(enters.insert({e.trigger, e.visitor}).second, "two enters of one pair");
+    require(world_.softBody(world_.body(e.visitor)) == e.visitorSoft, "an enter of another soft body");
+    require(enters.insert(pairOf({}, e.trigger, e.visitorSoft, e.visitor)).second, "two enters of one pair");
   }
   follow(visiting_, enters, leaves);
 }
@@ -109,6 +114,8 @@ void Session::checkContacts() const {
     require(world_.isAlive(contact.shapeA) && world_.isAlive(contact.shapeB), "a contact of a dead shape");
     require(world_.body(contact.shapeA) == contact.bodyA && world_.body(contact.shapeB) == contact.bodyB,
             "a contact of other bodies");
+    require(world_.softBody(contact.bodyA) == contact.softA && world_.softBody(contact.bodyB) == contact.softB,
+            "a contact of other soft bodies");
     require(!world_.isTrigger(contact.shapeA) && !world_.isTrigger(contact.shapeB), "a contact of a trigger");
     require(isUnit(contact.normal), "a contact normal that is not unit");
     require(contact.pointCount >= 1 && contact.pointCount <= 4, "a contact without points");

@@ -182,6 +182,8 @@ SoftMaterial Builder::materialOf(const Flex& flex, const SoftMeshData& mesh, dou
   SoftMaterial out{.youngsModulus = f(young),
                    .poissonRatio = f(std::min(flex.poisson, 0.499)),
                    .density = f(mass / (size * thickness))};
+  // MuJoCo's damping goes with the file's modulus: what only holds the edges damps no more than that.
+  out.damping = f(flex.holdsEdges ? flex.damping * std::min(1.0, flex.young / young) : flex.damping);
   if (!cloth) return out;
   out.thickness = f(thickness);
   const double nu = std::min(flex.poisson, 0.499);

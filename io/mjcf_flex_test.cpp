@@ -79,10 +79,12 @@ TEST(MjcfFlex, StretchingAndBendingAreAskedForApart) {
 
 TEST(MjcfFlex, PluginsSayWhatOlderFilesAreMadeOf) {
   const std::string config = "<config key='young' value='3e4'/><config key='poisson' value='.1'/>";
-  const Model solid = readWorld("<flexcomp name='F' dim='3' count='3 3 3'><plugin plugin='mujoco.elasticity.solid'>" +
-                                config + "<config key='damping' value='1'/></plugin></flexcomp>");
+  const Model solid =
+      readWorld("<flexcomp name='F' dim='3' count='3 3 3'><plugin plugin='mujoco.elasticity.solid'>" + config +
+                "<config key='damping' value='.01'/><config key='x' value='1'/>" + "</plugin></flexcomp>");
   EXPECT_EQ(solid.world.material(onlySoft(solid)).youngsModulus, 3e4f);
-  EXPECT_TRUE(hasNote(solid, "config \"damping\" is not used"));
+  EXPECT_EQ(solid.world.material(onlySoft(solid)).damping, 0.01f);
+  EXPECT_TRUE(hasNote(solid, "config \"x\" is not used"));
   const Model shell = readWorld("<flexcomp name='F' count='3 3 1'><plugin plugin='mujoco.elasticity.shell'>" + config +
                                 "<config key='thickness' value='.01'/></plugin></flexcomp>");
   EXPECT_NEAR(shell.world.material(onlySoft(shell)).bending, 3e4 * 1e-6 / (12 * 0.99), 1e-6);
@@ -232,6 +234,24 @@ TEST(MjcfFlex, OthersNameItsPoints) {
   EXPECT_LT(length(model.world.pose(bodyOf(model, "F_0")).position - Vec3d{-0.1, 0, 0}), 1e-3);
 }
 
+TEST(MjcfFlex, DampingGoesWithTheFilesModulus) {
+  const auto dampingOf = [](const std::string& parts) {
+    const Model model =
+        readWorld("<flexcomp name='F' dim='2' count='3 3 1' spacing='.1 .1 .1'>" + parts + "</flexcomp>");
+    EXPECT_FALSE(hasNote(model, "damping"));
+    return model.world.material(onlySoft(model)).damping;
+  };
+  const std::string elasticity = "<elasticity young='1e6' damping='.02' thickness='.01' elastic2d='both'/>";
+  EXPECT_EQ(dampingOf(elasticity), 0.02f);
+  EXPECT_EQ(dampingOf("<elasticity young='1e6' thickness='.01' elastic2d='both'/>"), 0);
+  const float held = dampingOf(
+      "<edge equality='true'/><elasticity young='1' damping='.02' thickness='.01' "
+      "elastic2d='both'/>");
+  EXPECT_GT(held, 0);
+  EXPECT_LT(held, 0.001f);
+  EXPECT_THROW(dampingOf("<elasticity young='1' damping='-1'/>"), FileError);
+}
+
 TEST(MjcfFlex, WhatIsLeftOutIsNoted) {
   const auto noted = [](const std::string& flexcomp, const char* part) {
     const Model model = readWorld("<flexcomp name='F' " + flexcomp);
@@ -239,7 +259,6 @@ TEST(MjcfFlex, WhatIsLeftOutIsNoted) {
   };
   noted("type='box' dim='1'/>", "left out: a flexcomp of type box or mesh with dim 1");
   noted("dof='trilinear' dim='3'/>", "dof trilinear: each point moves by itself");
-  noted("dim='3'><elasticity young='1' damping='.1'/></flexcomp>", "attribute damping is not used");
   noted("dim='3'><edge damping='.1'/></flexcomp>", "attribute damping is not used");
   noted("dim='3'><edge stiffness='.1'/></flexcomp>", "attribute stiffness is not used");
   noted("dim='3' radius='0'/>", "radius is 0");

@@ -112,6 +112,7 @@ struct Flex {
   std::vector<FlexVertex> vertices;
   std::vector<FlexElement> elements;
   double young = 0, poisson = 0;              ///< young 0: it resists nothing
+  double damping = 0;                         ///< [s] by which the stiffness is multiplied for the damping
   double thickness = 0;                       ///< of two dimensions; 0: twice the radius
   bool stretches = true, bends = true;        ///< of two dimensions: what young is for
   bool holdsEdges = false;                    ///< an equality keeps the length of each

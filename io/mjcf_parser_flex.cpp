@@ -135,6 +135,7 @@ void Parser::readFlexElasticity(Elem elem, Flex& flex) {
   flex.young = notNegative(a, "young");
   flex.poisson = a.number("poisson", 0);
   if (!(flex.poisson >= 0 && flex.poisson < 0.5)) a.fail("poisson", "must be >= 0 and < 0.5");
+  flex.damping = notNegative(a, "damping");
   flex.thickness = std::max(a.number("thickness", 0), 0.0);
   const int kind = a.keyword("elastic2d", {"none", "bend", "stretch", "both"}, 0);
   flex.bends = kind == 1 || kind == 3;
@@ -161,15 +162,19 @@ void Parser::readFlexPlugin(Elem elem, Flex& flex) {
   for (const Elem config : source_.children(elem)) {
     const Attributes c = own(config, "flexconfig");
     const std::string key = c.text("key");
-    const bool known = key == "young" || key == "poisson" || key == "thickness";
-    if (!known) {
+    double* to = key == "young"       ? &flex.young
+                 : key == "poisson"   ? &flex.poisson
+                 : key == "damping"   ? &flex.damping
+                 : key == "thickness" ? &flex.thickness
+                                      : nullptr;
+    if (!to) {
       notes_.add(source_.where(config), "config " + mjcf::quoted(key) + " is not used", "config");
       continue;
     }
     const std::vector<double> v = c.numbers("value", 1, 1);
     if (v.empty() || v[0] < 0) c.fail("value", "must be finite and >= 0");
     if (key == "poisson" && v[0] >= 0.5) c.fail("value", "must be >= 0 and < 0.5");
-    (key == "young" ? flex.young : key == "poisson" ? flex.poisson : flex.thickness) = v[0];
+    *to = v[0];
   }
 }
 

@@ -57,7 +57,7 @@ constexpr AttributeRule kSoftRules[] = {
 
     {"flexelasticity", "young", 1, 1, R},
     {"flexelasticity", "poisson", 1, 1, R},
-    {"flexelasticity", "damping", 1, 1, Z},
+    {"flexelasticity", "damping", 1, 1, R},
     {"flexelasticity", "thickness", 1, 1, R},
     {"flexelasticity", "elastic2d", 0, 0, R},
 

@@ -103,6 +103,7 @@ bool finitePose(const Pose& p) {
 
 bool Layout::mayTouch(uint32_t pieceA, uint32_t pieceB) const {
   const Piece &a = pieces[pieceA], &b = pieces[pieceB];
+  if (a.soft && a.soft == b.soft) return false;
   if (!separated.empty() && separated.count(pairKey(a.body, b.body))) return false;
   const Filter &f = a.filter, &g = b.filter;
   if (f.group == g.group && f.group != 0) return f.group > 0;
@@ -119,7 +120,7 @@ Layout layoutOf(const World& world) {
     slots[id.index] = slot;
     layout.dynamic.push_back(world.type(id) == BodyType::Dynamic);
     for (const ShapeId s : world.shapes(id))
-      layout.pieces.push_back({slot, world.geometry(s), world.localPose(s), world.filter(s)});
+      layout.pieces.push_back({slot, world.geometry(s), world.localPose(s), world.filter(s), world.softBody(id)});
   }
   for (const auto& [a, b] : world.excludedPairs())
     layout.separated.insert(pairKey(slots.at(a.index), slots.at(b.index)));

@@ -21,6 +21,7 @@ struct Layout {
     Geometry geometry;
     Pose pose;  ///< in the body's frame
     Filter filter;
+    SoftId soft{};  ///< that the body is a point of; else null
   };
   struct Anchors {
     uint32_t bodyA = kWorldBody, bodyB = kWorldBody;
@@ -50,7 +51,8 @@ struct Layout {
 Layout layoutOf(const World& world);
 std::vector<Pose> posesOf(const World& world, const Layout& layout);
 
-/// Exact penetration over all pairs of the layout that may touch.
+/// Exact penetration over all pairs of the layout that may touch: soft bodies by the balls of their points, without
+/// those of one and the same body.
 Penetration penetrationOf(const Layout& layout, std::span<const Pose> poses);
 /// How far the worst joint is from holding: the distance of its anchors along locked axes, or what a rope or rod is
 /// out of its range [m].

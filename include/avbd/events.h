@@ -24,7 +24,8 @@ struct ContactPoint {
   uint32_t feature;    ///< names the touching features; equal as long as they are the same
 };
 
-/// What of their touch (TouchEvent) the last step saw of two shapes. Its end is in Events::ends.
+/// What of their touch (TouchEvent) the last step saw of two shapes, of which a soft body counts as one. Its end is in
+/// Events::ends.
 enum class TouchPhase : uint8_t {
   None,     ///< near each other, but no point between them carried force
   Begins,   ///< they touched, but not in the step before
@@ -32,13 +33,17 @@ enum class TouchPhase : uint8_t {
 };
 
 /// Up to four points between two shapes that share a normal. Two convex shapes have one contact; a shape on a mesh or
-/// height field has one for each direction in which it is touched.
+/// height field has one for each direction in which it is touched. Of a soft body each point, edge and face that
+/// touches has its own, of one point; shape and body are those of the particle that touches, of an edge or a face the
+/// nearest.
 struct Contact {
   ShapeId shapeA, shapeB;
   BodyId bodyA, bodyB;
-  /// Triangle of a Mesh or HeightField that the first point is on (mesh.h: sourceTriangle); else kNoElement.
+  SoftId softA{}, softB{};  ///< that the body is a particle of; else null. Equal: a soft body touches itself.
+  /// Triangle of a Mesh or HeightField that the first point is on (mesh.h: sourceTriangle); of a soft body the face
+  /// that is touched (SoftMeshData::surface); else kNoElement.
   uint32_t elementA = kNoElement, elementB = kNoElement;
-  TouchPhase touch = TouchPhase::None;  ///< of the two shapes, by whatever point
+  TouchPhase touch = TouchPhase::None;  ///< of the two shapes or soft bodies, by whatever point
   Vec3 normal;                          ///< unit, from A to B
   int pointCount = 0;
   std::array<ContactPoint, 4> points;
@@ -46,28 +51,35 @@ struct Contact {
 
 /// Two shapes began or ceased to touch: have, or no longer have, a point that carries force. Ids may be of shapes
 /// destroyed since. A touch shorter than a step begins in it, and ends in it or the next.
+///
+/// A soft body counts as one shape: what touches it makes one begin and one end, by whatever points, edges and faces,
+/// and so do two soft bodies, or one that touches itself. Shape and body are then those of the particle at the place.
 struct TouchEvent {
   ShapeId shapeA, shapeB;
   BodyId bodyA, bodyB;
   Vec3d position;     ///< world [m], of a point between them: of a begin the one that pushed most, of an end the last
   Vec3 normal;        ///< unit, from A to B, there
   float impulse = 0;  ///< [N s] >= 0 along the normal over this step, of all their points
+  SoftId softA{}, softB{};  ///< as of Contact
 };
 
-/// A shape entered or left a trigger (ShapeDef::isTrigger). Ids may be of shapes destroyed since.
+/// A shape entered or left a trigger (ShapeDef::isTrigger). Ids may be of shapes destroyed since. A soft body enters
+/// with the first of its points, which is then the visitor, and leaves with the last.
 struct TriggerEvent {
   ShapeId trigger, visitor;
   BodyId triggerBody, visitorBody;
+  SoftId visitorSoft{};  ///< that the visitor is a point of; else null
 };
 
-/// Two shapes met faster than WorldDef::hitSpeed.
+/// Two shapes met faster than WorldDef::hitSpeed. A soft body counts as one, as in a TouchEvent.
 struct HitEvent {
   ShapeId shapeA, shapeB;
   BodyId bodyA, bodyB;
-  Vec3d position;     ///< world [m]
-  Vec3 normal;        ///< unit, from A to B
-  float speed = 0;    ///< [m/s] > 0, of approach along the normal at the start of the step
-  float impulse = 0;  ///< [N s] along the normal over the step, of all their points, rebound included
+  Vec3d position;           ///< world [m]
+  Vec3 normal;              ///< unit, from A to B
+  float speed = 0;          ///< [m/s] > 0, of approach along the normal at the start of the step
+  float impulse = 0;        ///< [N s] along the normal over the step, of all their points, rebound included
+  SoftId softA{}, softB{};  ///< as of Contact
 };
 
 /// A joint broke (JointBreak).

@@ -40,6 +40,8 @@ struct SoftDef {
   Filter filter{};
   /// Parts of it do not pass through each other; of a solid unless its surface already does.
   bool selfContact = true;
+  bool contactEvents = true;  ///< as in ShapeDef, of the whole
+  bool hitEvents = false;     ///< likewise
   bool canSleep = true;
   uint64_t userData = 0;
 };

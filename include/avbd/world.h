@@ -257,8 +257,10 @@ class World {
   uint64_t userData(JointId id) const;
   void setUserData(JointId id, uint64_t data);
 
-  /// Contacts of the last step, ordered by shape ids. Touches that began and persist are told apart by Contact::touch.
-  /// What touched within the step but has flown far apart by its end is in Events::begins and hits alone.
+  /// Contacts of the last step: of pairs of shapes, points of soft bodies among them, ordered by shape ids; then of
+  /// edges and faces of soft bodies, in an order that is the same for the same state. Touches that began and persist
+  /// are told apart by Contact::touch. What touched within the step but has flown far apart by its end is in
+  /// Events::begins and hits alone.
   std::vector<Contact> contacts() const;
   /// The same in place of what `out` holds: its memory is used again.
   void getContacts(std::vector<Contact>& out) const;
@@ -277,6 +279,10 @@ class World {
   void setHitEvents(ShapeId id, bool wanted);
   bool contactHook(ShapeId id) const;
   void setContactHook(ShapeId id, bool wanted);
+  bool contactEvents(SoftId id) const;  ///< whether any of its points wants them
+  void setContactEvents(SoftId id, bool wanted);
+  bool hitEvents(SoftId id) const;  ///< likewise
+  void setHitEvents(SoftId id, bool wanted);
 
   // Snapshots: all that the steps to come, and every call, depend on, with the ids. A world goes back to any of its own
   // in place; so does any other that was made with an equal WorldDef (workers and simdWidth apart) and has, or had,

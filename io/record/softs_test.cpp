@@ -267,7 +267,9 @@ TEST(RecordSofts, AWorldsSoftBodiesStandBehindItsOtherBodies) {
   for (const RecordedContact& c : frame.contacts) {
     const uint32_t ball = c.shapeA == 0 ? c.shapeB : c.shapeA;
     ASSERT_LT(ball, head.shapes.size());
-    EXPECT_LT(length(frame.poses[head.shapes[ball].body].position - c.position), 0.05);
+    // A face touches anywhere between its points.
+    const bool isPoint = c.shapeA == 0 || c.shapeB == 0;
+    EXPECT_LT(length(frame.poses[head.shapes[ball].body].position - c.position), isPoint ? 0.05 : 0.25);
   }
   EXPECT_FALSE(frame.events.empty());
 }

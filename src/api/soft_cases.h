@@ -4,6 +4,7 @@
 #include <avbd/world.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <vector>
 
@@ -13,6 +14,19 @@ inline constexpr float kDt = 1.0f / 60;
 
 inline void run(World& world, int steps) {
   for (int i = 0; i < steps; ++i) world.step(kDt);
+}
+
+/// Cloth that lies along x and z is turned over so that one half of it hangs above the other, by a bend of this radius.
+inline void foldOver(World& world, SoftId cloth, double radius) {
+  const double bend = 3.14159265358979323846 * radius;
+  for (const BodyId id : world.particles(cloth)) {
+    Pose pose = world.pose(id);
+    const double x = pose.position.x;
+    if (x <= 0) continue;
+    pose.position.x = x < bend ? radius * std::sin(x / radius) : bend - x;
+    pose.position.y += x < bend ? radius * (1 - std::cos(x / radius)) : 2 * radius;
+    world.setPose(id, pose);
+  }
 }
 
 /// make(def) gives the world.

@@ -1,7 +1,8 @@
-// Contacts of the last step, read from the pairs.
+// Contacts of the last step, read from the pairs and the touches of soft bodies.
 #include "api/world_impl.h"
 #include "world/measure.h"
 #include "world/pairs.h"
+#include "world/soft_contacts.h"
 
 namespace avbd {
 
@@ -19,6 +20,9 @@ void World::getContacts(std::vector<Contact>& out) const {
     if (pair.patch == 0) head = &pair;
     if (contactPoints(pair) > 0) out.push_back(contactOf(data, pair, *head));
   });
+  for (const SoftContact& contact : data.softContacts)
+    if (data.forgotten.empty() || (!isForgotten(data, contact.shape[0]) && !isForgotten(data, contact.shape[1])))
+      out.push_back(contactOf(data, contact));
 }
 
 }  // namespace avbd

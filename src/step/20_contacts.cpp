@@ -4,6 +4,7 @@
 #include "collide/collide.h"
 #include "step/contacts.h"
 #include "step/sleeping.h"
+#include "step/soft_events.h"
 #include "step/soft_touches.h"
 #include "world/pairs.h"
 
@@ -85,6 +86,7 @@ void findOther(WorldData& world, StepData& step, size_t i) {
     pair.touching = pair.touching || overlaps(world, step, pair);
     if (pair.touching != pair.wasTouching) step.touchChanges.push_back(pair.key());
     step.found[i] = foundContact(world, pair);
+    if (pair.touching && step.found[i].isSoft) noteSoftVisit(world, step, pair.shapeA, pair.shapeB, pair.triggerIsA);
     return;
   }
   const size_t end = world.pairs.endOfRun(i);

@@ -9,6 +9,7 @@
 #include "step/coordinate_rows.h"
 #include "step/free_motion.h"
 #include "step/publish_events.h"
+#include "step/soft_events.h"
 #include "step/soft_touches.h"
 
 namespace avbd {
@@ -114,16 +115,20 @@ void publishContact(WorldData& world, StepData& step, uint32_t pair, const Force
   publishMeans(world, world.pairs[pair], whole);
 }
 
-/// A contact that begins and ends nothing, and whose forces are all that there is to tell, is published at once.
-bool publishQuietly(WorldData& world, uint32_t index, const Forces& forces) {
+/// What is left to tell of a contact.
+enum Told : uint8_t { kAll = 0, kToWhole = 1, kNothing = 2 };
+
+/// A contact that begins and ends nothing, and whose forces are all that there is to tell, is published at once; what a
+/// particle touches is still to be told to its soft body.
+Told publishQuietly(WorldData& world, const StepData& step, uint32_t index, const Forces& forces) {
   PairData& pair = world.pairs[index];
   const bool quiet = world.def.substeps == 1 && pair.restitution == 0 && !pair.hasSurface && !pair.wantsHits;
   bool touches = false;
   for (int i = 0; i < pair.pointCount; ++i) touches = touches || forces.normal[static_cast<size_t>(i)] > 0;
-  if (!quiet || touches != pair.wasTouching) return false;
+  if (!quiet || touches != pair.wasTouching) return kAll;
   pair.touching = touches;
   publishPoints(pair, forces);
-  return true;
+  return touches && step.found[index].isSoft ? kToWhole : kNothing;
 }
 
 Forces forcesOfLane(const StepData& step, size_t lane) {
@@ -131,17 +136,20 @@ Forces forcesOfLane(const StepData& step, size_t lane) {
 }
 
 void publishContacts(WorldData& world, StepData& step) {
-  step.loud.resize(step.contactPair.size());
-  step.jobs->forRange(static_cast<uint32_t>(step.loud.size()), 1024, [&](uint32_t begin, uint32_t end, int) {
+  step.told.resize(step.contactPair.size());
+  step.jobs->forRange(static_cast<uint32_t>(step.told.size()), 1024, [&](uint32_t begin, uint32_t end, int) {
     for (size_t lane = begin; lane < end; ++lane) {
       prefetchAhead(world, step.contactPair, lane);
       const uint32_t pair = step.contactPair[lane];
-      step.loud[lane] = pair != kNone && !publishQuietly(world, pair, forcesOfLane(step, lane));
+      step.told[lane] = pair != kNone ? publishQuietly(world, step, pair, forcesOfLane(step, lane)) : kNothing;
     }
   });
   size_t bounce = 0;
-  for (size_t lane = 0; lane < step.loud.size(); ++lane)
-    if (step.loud[lane]) publishContact(world, step, step.contactPair[lane], forcesOfLane(step, lane), bounce);
+  for (size_t lane = 0; lane < step.told.size(); ++lane) {
+    const uint32_t pair = step.contactPair[lane];
+    if (step.told[lane] == kAll) publishContact(world, step, pair, forcesOfLane(step, lane), bounce);
+    if (step.told[lane] == kToWhole) noteSoftContact(world, step, world.pairs[pair], forcesOfLane(step, lane).normal);
+  }
   for (const BatchRange& batch : step.batches)
     for (size_t lane = size_t(batch.fullTile) * kTile; lane < size_t(batch.fullTile + batch.fullTiles) * kTile;
          ++lane) {

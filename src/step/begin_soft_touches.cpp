@@ -1,7 +1,4 @@
-// Rows of touches of soft bodies: constants of the step and remembered multipliers; and their
-// publication.
-#include <algorithm>
-
+// Rows of touches of soft bodies: constants of the step and remembered multipliers.
 #include "step/begin_rows.h"
 #include "step/contacts.h"
 #include "step/settings.h"
@@ -60,19 +57,6 @@ void fillSoftTouches(const WorldData& world, StepData& step) {
       }
       step.touchTiles[lane / kTile].set(static_cast<int>(lane % kTile), rows);
     }
-  }
-}
-
-void publishSoftTouches(WorldData& world, const StepData& step) {
-  world.softTouches.resize(step.softTouches.size());
-  for (size_t i = 0; i < step.softTouches.size(); ++i) world.softTouches[i] = step.softTouches[i].touch;
-  for (size_t lane = 0; lane < step.touchLane.size(); ++lane) {
-    if (step.touchLane[lane] == kNone) continue;
-    const rows::NodeContact<float> c = step.touchTiles[lane / kTile].get(static_cast<int>(lane % kTile));
-    SoftTouch& touch = world.softTouches[step.touchLane[lane]];
-    touch.lambda = {c.lambdaN, c.lambda1, c.lambda2};
-    touch.sticks = insideCone(touch.lambda, c.mu) ? 1 : 0;
-    touch.slides = touch.sticks ? uint8_t{0} : static_cast<uint8_t>(std::min(touch.slides + 1, 255));
   }
 }
 

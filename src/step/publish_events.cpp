@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <tuple>
 
+#include "step/soft_events.h"
 #include "step/swept_contacts.h"
 #include "world/bodies.h"
 #include "world/pairs.h"
+#include "world/soft_contacts.h"
 
 namespace avbd {
 
@@ -15,9 +17,11 @@ namespace {
 void noteHit(const WorldData& world, StepData& step, const PairData& pair, const PointForces& forces) {
   const BodyData &a = world.bodies[pair.bodyA], &b = world.bodies[pair.bodyB];
   HitRecord hit;
-  hit.key = pair.key();
+  const bool ofSoft = isParticle(world, pair.bodyA) || isParticle(world, pair.bodyB);
+  hit.key = ofSoft ? thingPair(world, pair.shapeA, pair.shapeB) : pair.key();
   hit.order = static_cast<uint32_t>(step.hits.size());
   hit.event = {pair.shapeId(0), pair.shapeId(1), pair.bodyId(0), pair.bodyId(1), pair.origin, pair.normal, 0, 0};
+  hit.event.softA = softOfBody(world, pair.bodyA), hit.event.softB = softOfBody(world, pair.bodyB);
   for (int i = 0; i < pair.pointCount; ++i) {
     if (!(forces[static_cast<size_t>(i)] > 0)) continue;
     const ContactArms arms = armsOf(world, step, pair, i);
@@ -97,7 +101,7 @@ void publishHits(WorldData& world, StepData& step) {
 
 TriggerEvent visitOf(const ShapeId (&shape)[2], const BodyId (&body)[2], bool triggerIsA) {
   const int trigger = triggerIsA ? 0 : 1, visitor = 1 - trigger;
-  return {shape[trigger], shape[visitor], body[trigger], body[visitor]};
+  return {shape[trigger], shape[visitor], body[trigger], body[visitor], {}};
 }
 
 /// A pair of the list whose touching has changed.
@@ -110,7 +114,7 @@ void addChange(WorldData& world, const StepData& step, size_t index) {
     (pair.touching ? events.enters : events.leaves).push_back(visitOf(shape, body, pair.triggerIsA));
     return;
   }
-  TouchEvent event{pair.shapeId(0), pair.shapeId(1), pair.bodyId(0), pair.bodyId(1), {}, {}, 0};
+  TouchEvent event{pair.shapeId(0), pair.shapeId(1), pair.bodyId(0), pair.bodyId(1), {}, {}, 0, {}, {}};
   if (pair.touching) {
     const TouchRecord& touch = touchOf(step, pair.key());
     event.position = touch.position, event.normal = touch.normal, event.impulse = touch.impulse;
@@ -125,14 +129,14 @@ uint64_t keyOf(const LostTouch& lost) { return uint64_t(lost.shape[0].index - 1)
 
 /// A pair that is gone for good: the end, and if nobody knows of it yet, the begin.
 void addLost(Events& events, const StepData& step, const LostTouch& lost) {
+  if (!lost.reports) return;
   if (lost.isTrigger) {
     const TriggerEvent visit = visitOf(lost.shape, lost.body, lost.triggerIsA);
     if (!lost.wasTouching) events.enters.push_back(visit);
     events.leaves.push_back(visit);
     return;
   }
-  if (!lost.reports) return;
-  TouchEvent event{lost.shape[0], lost.shape[1], lost.body[0], lost.body[1], lost.position, lost.normal, 0};
+  TouchEvent event{lost.shape[0], lost.shape[1], lost.body[0], lost.body[1], lost.position, lost.normal, 0, {}, {}};
   if (!lost.wasTouching) {
     const TouchRecord& touch = touchOf(step, keyOf(lost));
     event.impulse = touch.impulse;
@@ -185,6 +189,16 @@ void publishLost(WorldData& world, StepData& step) {
   all.clear();
 }
 
+/// Triggers that fast bodies entered and left within the step; soft bodies leave in the next one.
+void publishCrossings(WorldData& world, StepData& step) {
+  for (const TriggerEvent& e : step.continuous.crossings) {
+    if (isParticle(world, world.bodyIds.slot(e.visitorBody)) || isParticle(world, world.bodyIds.slot(e.triggerBody)))
+      noteSoftVisit(world, step, world.shapeIds.slot(e.trigger), world.shapeIds.slot(e.visitor), true);
+    else
+      world.events.enters.push_back(e), world.events.leaves.push_back(e);
+  }
+}
+
 template <class Event, class Ids>
 void sortBy(std::vector<Event>& events, Ids ids) {
   std::sort(events.begin(), events.end(), [&](const Event& x, const Event& y) { return ids(x) < ids(y); });
@@ -206,6 +220,7 @@ void beginEvents(WorldData& world, StepData& step) {
   world.means.clear();
   step.lostBefore = world.lostTouches.size();
   step.hits.clear();
+  step.softNotes.clear();
   step.touches.clear();
   step.touches.reserve(world.pairs.size());
   step.touchChanges.clear();
@@ -224,7 +239,10 @@ void noteContact(WorldData& world, StepData& step, uint32_t index, const PointFo
   if (touches != head.wasTouching) step.touchChanges.push_back(pair.key());
   if (!touches) return;
   head.touching = true;
-  if (!head.wasTouching) noteTouch(step, pair, forces);
+  if (step.found[index].isSoft)
+    noteSoftContact(world, step, pair, forces);
+  else if (!head.wasTouching)
+    noteTouch(step, pair, forces);
   if (pair.wantsHits) noteHit(world, step, pair, forces);
 }
 
@@ -243,12 +261,14 @@ void publishEvents(WorldData& world, StepData& step) {
     pair.wasTouching = pair.touching;
     pair.touchBegins = pair.touching;
   }
-  for (const TriggerEvent& e : step.continuous.crossings) events.enters.push_back(e), events.leaves.push_back(e);
+  publishCrossings(world, step);
+  publishSoftEvents(world, step);
   const auto shapes = [](const TouchEvent& e) { return std::tie(e.shapeA, e.shapeB); };
   const auto trigger = [](const TriggerEvent& e) { return std::tie(e.trigger, e.visitor); };
   sortBy(events.begins, shapes), sortBy(events.ends, shapes);
   sortBy(events.enters, trigger), sortBy(events.leaves, trigger);
   publishHits(world, step);
+  sortBy(events.hits, [](const HitEvent& e) { return std::tie(e.shapeA, e.shapeB); });
   if (world.def.moveEvents) publishMoves(world, step);
 }
 

@@ -82,7 +82,18 @@ void dropSame(std::vector<FoundTouch>& all) {
 
 }  // namespace
 
+namespace {
+
+/// False of NaN: features that are too long for floats (1e10 m and more) have no nearest points.
+bool hasPlace(const FoundTouch& found) {
+  const Vec3 normal = found.touch.normal, place = found.touch.anchor;
+  return dot(normal, normal) > 0.5f && dot(place, place) < 1e30f && found.separation < 1e30f;
+}
+
+}  // namespace
+
 void addTouch(const WorldData& world, StepData& step, FoundTouch found) {
+  if (!hasPlace(found)) return;
   found.weights = nodeWeights(found.touch.kind, found.touch.anchor);
   found.awake = true;
   remember(world, found.touch);

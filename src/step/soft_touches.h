@@ -9,8 +9,8 @@ namespace avbd {
 
 /// Fills step.softTouches; those between what sleeps as they were.
 void findSoftTouches(const WorldData& world, StepData& step);
-void fillSoftTouches(const WorldData& world, StepData& step);     ///< 50_begin_rows
-void publishSoftTouches(WorldData& world, const StepData& step);  ///< 90_publish
+void fillSoftTouches(const WorldData& world, StepData& step);  ///< 50_begin_rows
+void publishSoftTouches(WorldData& world, StepData& step);     ///< 90_publish
 /// Keeps apart what the solve would take through each other (continuous_soft.cpp).
 void stopSofts(WorldData& world, StepData& step);  ///< 75_continuous
 

@@ -22,7 +22,8 @@ void run(World& world, int steps) {
 double groundForce(const World& world) {
   double force = 0;
   for (const Contact& contact : world.contacts())
-    for (int i = 0; i < contact.pointCount; ++i) force += double{contact.points[static_cast<size_t>(i)].normalForce};
+    for (int i = 0; i < contact.pointCount && !(contact.softA && contact.softB); ++i)
+      force += double{contact.points[static_cast<size_t>(i)].normalForce};
   return force;
 }
 

@@ -172,6 +172,7 @@ struct FoundContact {
   bool isFull : 1 = false;
   bool bounces : 1 = false;  ///< has restitution
   bool ends : 1 = false;     ///< touched in the last step, and has no points any more
+  bool isSoft : 1 = false;   ///< one of them is a particle
   bool isBetweenDynamic() const { return typeA == BodyType::Dynamic && typeB == BodyType::Dynamic; }
   bool hasKinematic() const { return typeA == BodyType::Kinematic || typeB == BodyType::Kinematic; }
 };
@@ -183,7 +184,8 @@ inline FoundContact foundContact(const WorldData& world, const PairData& pair) {
           world.bodies[pair.bodyB].type,
           pair.isFull,
           pair.restitution > 0,
-          pair.wasTouching && pair.pointCount == 0};
+          pair.wasTouching && pair.pointCount == 0,
+          isParticle(world, pair.bodyA) || isParticle(world, pair.bodyB)};
 }
 
 /// What the contact hook wants of a contact beyond its coefficients.
@@ -207,6 +209,14 @@ struct TouchRecord {
   Vec3d position;  ///< of the point that pushed most
   Vec3 normal;
   float impulse = 0;  ///< [N s] of all points
+};
+
+/// What a soft body and a thing did with each other in a substep: of those that follow each other one.
+struct SoftNote {
+  SoftPair pair;
+  uint32_t order = 0;
+  float most = 0;     ///< [N] of the point that pushed most
+  float impulse = 0;  ///< [N s] of all
 };
 
 struct PoseBefore {
@@ -396,11 +406,14 @@ struct StepData {
   std::vector<uint32_t> falling;  ///< islands that fall asleep
 
   // 90_publish
-  std::vector<uint64_t> touchChanges;   ///< keys of pairs that may have begun or ended to touch
-  std::vector<uint8_t> loud;            ///< by lane of contacts: its publication makes more than its own forces
-  std::vector<TouchRecord> touches;     ///< of all substeps so far
-  std::vector<HitRecord> hits;          ///< likewise
-  std::vector<PoseBefore> posesBefore;  ///< by body slot, where moves are events
+  std::vector<uint64_t> touchChanges;  ///< keys of pairs that may have begun or ended to touch
+  std::vector<uint8_t> told;           ///< by lane of contacts: what its publication makes beyond its own forces
+  std::vector<TouchRecord> touches;    ///< of all substeps so far
+  std::vector<HitRecord> hits;         ///< likewise
+  std::vector<SoftNote> softNotes;     ///< likewise
+  std::vector<SoftPair> softPairs;     ///< room for WorldData::softPairs
+  std::vector<SoftContact> softContacts, newSoftContacts, mergedSoftContacts;  ///< of all substeps so far; of one; both
+  std::vector<PoseBefore> posesBefore;                                         ///< by body slot, where moves are events
 
   size_t rows() const { return product.size(); }  ///< of all batches
   BatchView view(size_t batch);

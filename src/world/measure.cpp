@@ -6,6 +6,7 @@
 #include "world/bodies.h"
 #include "world/joint_coordinates.h"
 #include "world/joints.h"
+#include "world/soft_contacts.h"
 
 namespace avbd {
 namespace {
@@ -77,7 +78,11 @@ Contact contactOf(const WorldData& data, const PairData& pair, const PairData& h
   if (pair.hasSurface) {
     (isSurface(data.shapes[pair.shapeA].geom.type) ? contact.elementA : contact.elementB) = pair.element;
   }
-  if (head.touching) contact.touch = head.touchBegins ? TouchPhase::Begins : TouchPhase::Persists;
+  contact.softA = softOfBody(data, pair.bodyA), contact.softB = softOfBody(data, pair.bodyB);
+  if (contact.softA || contact.softB)
+    contact.touch = softPhase(data, pair.shapeA, pair.shapeB);
+  else if (head.touching)
+    contact.touch = head.touchBegins ? TouchPhase::Begins : TouchPhase::Persists;
   contact.normal = pair.normal;
   contact.pointCount = contactPoints(pair);
   for (int i = 0; i < contact.pointCount; ++i) {

@@ -40,7 +40,7 @@ struct alignas(64) PairData {
   bool hasSurface = false;          ///< one of the shapes is a Mesh or HeightField
   bool isTrigger = false;           ///< one of the shapes is: no points, only `touching`
   bool triggerIsA = false;          ///< of a trigger: which of the two
-  bool reports = true;              ///< its begin and end are events
+  bool reports = true;              ///< its begin and end are events; a particle's are of its soft body (SoftPair)
   bool wantsHits = false;           ///< so are its hits
   bool hasHook = false;             ///< the contact hook sees it
   bool isFull = false;              ///< in this substep its rows are those of a FullContact

@@ -32,7 +32,8 @@ namespace {
 
 void readWishes(const WorldData& data, PairData& pair) {
   const ShapeData &a = data.shapes[pair.shapeA], &b = data.shapes[pair.shapeB];
-  pair.reports = pair.isTrigger || (a.contactEvents && b.contactEvents);
+  const bool ofSoft = isParticle(data, pair.bodyA) || isParticle(data, pair.bodyB);
+  pair.reports = !ofSoft && (pair.isTrigger || (a.contactEvents && b.contactEvents));
   pair.wantsHits = a.hitEvents || b.hitEvents;
   pair.hasHook = a.contactHook || b.contactHook;
 }
@@ -126,7 +127,7 @@ void eraseSlot(std::vector<uint32_t>& slots, uint32_t slot) {
 }  // namespace
 
 void forgetPairsOfShape(WorldData& data, uint32_t shape) {
-  if (!data.pairs.empty() || !data.sleep.woken.empty()) insertSlot(data.forgotten, shape);
+  if (!data.pairs.empty() || !data.sleep.woken.empty() || !data.softContacts.empty()) insertSlot(data.forgotten, shape);
 }
 
 void forgetPairsOfBody(WorldData& data, uint32_t body) {
@@ -156,6 +157,8 @@ void dropForgottenPairs(WorldData& data) {
     loseTouch(data, i, false);
     return true;
   });
+  std::erase_if(data.softContacts,
+                [&](const SoftContact& contact) { return forgotten[contact.shape[0]] || forgotten[contact.shape[1]]; });
   data.forgotten.clear();
 }
 

@@ -138,9 +138,9 @@ void checkHook(bool asked, const WorldData& restored, const WorldData& world) {
 /// state.
 void allMembers(WorldData& data) {
   [[maybe_unused]] auto& [def, bodyIds, shapeIds, jointIds, softIds, bodies, shapes, joints, d6, links, softs,
-                          softTouches, couplings, jointForces, breakable, pairs, excludedPairs, tree, unpaired,
-                          forgotten, treeBehind, time, lastSubstep, report, means, events, lostTouches, contactHook,
-                          hookedShapes, sleep, wishesChanged] = data;
+                          softTouches, softContacts, softPairs, couplings, jointForces, breakable, pairs, excludedPairs,
+                          tree, unpaired, forgotten, treeBehind, time, lastSubstep, report, means, events, lostTouches,
+                          contactHook, hookedShapes, sleep, wishesChanged] = data;
 }
 
 void read(Reader& in, const WorldData& world, SharedTable& table, PairSides& sides, WorldData& out) {
@@ -162,6 +162,7 @@ void read(Reader& in, const WorldData& world, SharedTable& table, PairSides& sid
   codeSofts(in, out, things);
   codeLists(in, out);
   checkLinks(out);
+  checkSoftContacts(out);
   fillSides(out, sides);
   codePairs(in, out, sides);
   codeSleep(in, out, sides);

@@ -151,22 +151,36 @@ auto snapshotParts(T& x) {
   return std::tie(kind, sticks, slides, first, firstPart, second, secondPart, normal, lambda, anchor, place);
 }
 
+template <MaybeConst<SoftContact> T>
+auto snapshotParts(T& x) {
+  auto& [kind, first, firstPart, second, secondPart, shape, position, normal, separation, normalForce, frictionForce] =
+      x;
+  return std::tie(kind, first, firstPart, second, secondPart, shape, position, normal, separation, normalForce,
+                  frictionForce);
+}
+
+template <MaybeConst<SoftPair> T>
+auto snapshotParts(T& x) {
+  auto& [key, soft, shape, body, isTrigger, triggerIsA, reports, begins, position, normal] = x;
+  return std::tie(key, soft, shape, body, isTrigger, triggerIsA, reports, begins, position, normal);
+}
+
 template <MaybeConst<TouchEvent> T>
 auto snapshotParts(T& x) {
-  auto& [shapeA, shapeB, bodyA, bodyB, position, normal, impulse] = x;
-  return std::tie(shapeA, shapeB, bodyA, bodyB, position, normal, impulse);
+  auto& [shapeA, shapeB, bodyA, bodyB, position, normal, impulse, softA, softB] = x;
+  return std::tie(shapeA, shapeB, bodyA, bodyB, position, normal, impulse, softA, softB);
 }
 
 template <MaybeConst<TriggerEvent> T>
 auto snapshotParts(T& x) {
-  auto& [trigger, visitor, triggerBody, visitorBody] = x;
-  return std::tie(trigger, visitor, triggerBody, visitorBody);
+  auto& [trigger, visitor, triggerBody, visitorBody, visitorSoft] = x;
+  return std::tie(trigger, visitor, triggerBody, visitorBody, visitorSoft);
 }
 
 template <MaybeConst<HitEvent> T>
 auto snapshotParts(T& x) {
-  auto& [shapeA, shapeB, bodyA, bodyB, position, normal, speed, impulse] = x;
-  return std::tie(shapeA, shapeB, bodyA, bodyB, position, normal, speed, impulse);
+  auto& [shapeA, shapeB, bodyA, bodyB, position, normal, speed, impulse, softA, softB] = x;
+  return std::tie(shapeA, shapeB, bodyA, bodyB, position, normal, speed, impulse, softA, softB);
 }
 
 template <MaybeConst<BreakEvent> T>

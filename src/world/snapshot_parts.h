@@ -30,6 +30,8 @@ void codeJoints(Reader& in, WorldData& data, const KnownThings& things);
 /// Soft bodies; their particles must be there.
 void codeSofts(Writer& out, const WorldData& data, SharedTable& table);
 void codeSofts(Reader& in, WorldData& data, const KnownThings& things);
+/// Of soft bodies, once all shapes and lists are there.
+void checkSoftContacts(const WorldData& data);
 void codePairs(Writer& out, const WorldData& data, const PairSides& sides);
 void codePairs(Reader& in, WorldData& data, const PairSides& sides);
 void codePairList(Writer& out, const PairSides& sides, const std::vector<PairData>& pairs);

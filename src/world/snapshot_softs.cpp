@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "geom/soft_mesh_parts.h"
+#include "world/pairs.h"
 #include "world/snapshot_parts.h"
 #include "world/soft.h"
 
@@ -61,6 +62,19 @@ void checkTouches(const WorldData& data) {
 
 }  // namespace
 
+void checkSoftContacts(const WorldData& data) {
+  const SoftContact* before = nullptr;
+  for (const SoftContact& contact : data.softContacts) {
+    for (const uint32_t shape : contact.shape)
+      require(shape < data.shapes.size() && (data.shapeIds.isAliveSlot(shape) || isForgotten(data, shape)),
+              "a contact of a shape that there is not");
+    require(contact.kind <= TouchKind::ShapeFace && (!before || *before < contact), "the order of contacts");
+    before = &contact;
+  }
+  for (size_t i = 1; i < data.softPairs.size(); ++i)
+    require(data.softPairs[i - 1].key < data.softPairs[i].key, "the order of what touches soft bodies");
+}
+
 void codeSofts(Writer& out, const WorldData& data, SharedTable& table) {
   data.softIds.forEach([&](uint32_t slot) {
     const SoftData& soft = data.softs[slot];
@@ -68,7 +82,7 @@ void codeSofts(Writer& out, const WorldData& data, SharedTable& table) {
     codeNumbers(out, soft);
     list(out, soft.bodies), list(out, soft.memory.pressures), list(out, soft.memory.tensions);
   });
-  recordList(out, data.softTouches);
+  recordList(out, data.softTouches), recordList(out, data.softContacts), recordList(out, data.softPairs);
 }
 
 void codeSofts(Reader& in, WorldData& data, const KnownThings& things) {
@@ -86,7 +100,7 @@ void codeSofts(Reader& in, WorldData& data, const KnownThings& things) {
     require(soft.memory.tensions.size() == tensionsOf(*soft.mesh, soft.material), "a soft body's tensions");
   });
   checkParticles(data);
-  recordList(in, data.softTouches);
+  recordList(in, data.softTouches), recordList(in, data.softContacts), recordList(in, data.softPairs);
   checkTouches(data);
 }
 

@@ -62,7 +62,12 @@ uint32_t addSoft(WorldData& data, const SoftDef& def) {
   std::vector<uint8_t> outside(mesh.points().size());
   for (const auto& face : mesh.surface())
     for (const uint32_t p : face) outside[p] = 1;
-  const ShapeDef shape{.geometry = Sphere{def.radius}, .density = 0, .material = def.surface, .filter = def.filter};
+  const ShapeDef shape{.geometry = Sphere{def.radius},
+                       .density = 0,
+                       .material = def.surface,
+                       .filter = def.filter,
+                       .contactEvents = def.contactEvents,
+                       .hitEvents = def.hitEvents};
   for (size_t i = 0; i < masses.size(); ++i) {
     BodyDef body = particleOf(def, mesh.points()[i], masses[i]);
     if (outside[i]) body.shapes.push_back(shape);

@@ -166,6 +166,38 @@ struct SoftTouch {
   }
 };
 
+/// A touch of a surface of a soft body in the last step, as World::contacts() tells it.
+struct SoftContact {
+  TouchKind kind = TouchKind::PointFace;
+  uint32_t first = kNone, firstPart = 0;    ///< as of SoftTouch
+  uint32_t second = kNone, secondPart = 0;  ///< likewise
+  uint32_t shape[2] = {kNone, kNone};       ///< slots: of the first, of the second; of a soft body the nearest point's
+  Vec3d position;                           ///< halfway between the surfaces, when the last substep began
+  Vec3 normal;                              ///< from the second to the first
+  float separation = 0;                     ///< [m]
+  float normalForce = 0;                    ///< [N] mean over the step, as the next
+  Vec3 frictionForce;                       ///< [N] on the first
+  /// By whose it is, as touches.
+  friend bool operator<(const SoftContact& a, const SoftContact& b) {
+    return std::tie(a.kind, a.first, a.firstPart, a.second, a.secondPart) <
+           std::tie(b.kind, b.first, b.firstPart, b.second, b.secondPart);
+  }
+};
+
+/// What touched a soft body in the last step, a shape or a soft body, or a trigger that it is in. For events, so that a
+/// soft body counts as one thing with all its shapes.
+struct SoftPair {
+  uint64_t key = 0;  ///< of the two things (soft_contacts.h)
+  SoftId soft[2];    ///< A, B; null of what is none
+  ShapeId shape[2];  ///< of a soft body the shape of the particle where they pushed each other most
+  BodyId body[2];
+  bool isTrigger = false, triggerIsA = false;
+  bool reports = false;  ///< its begin and end are events
+  bool begins = false;   ///< as far as who asks for it knows, it did not touch in the step before
+  Vec3d position;        ///< where they pushed most
+  Vec3 normal;
+};
+
 /// A pair that touched when it left the list: its end is still to be reported, unless it is found again.
 struct LostTouch {
   ShapeId shape[2];  ///< A, B
@@ -209,16 +241,18 @@ struct WorldData {
   std::vector<BodyData> bodies;  ///< by slot
   std::vector<ShapeData> shapes;
   std::vector<JointData> joints;
-  std::vector<D6Data> d6;               ///< by joint slot, up to the highest that needs one
-  std::vector<LinkData> links;          ///< likewise
-  std::vector<SoftData> softs;          ///< by slot
-  std::vector<SoftTouch> softTouches;   ///< of the last substep, ascending
-  std::vector<uint32_t> couplings;      ///< joint slots, ascending
-  bool jointForces = false;             ///< some joint was given a force for the next step
-  uint32_t breakable = 0;               ///< how many joints have a bound in `breaks`
-  PairList pairs;                       ///< that are awake
-  std::vector<uint64_t> excludedPairs;  ///< body slots, low << 32 | high, sorted, each as often as it was excluded
-  DynamicTree tree;                     ///< fat bounds of all shapes; user data is the shape's slot
+  std::vector<D6Data> d6;                 ///< by joint slot, up to the highest that needs one
+  std::vector<LinkData> links;            ///< likewise
+  std::vector<SoftData> softs;            ///< by slot
+  std::vector<SoftTouch> softTouches;     ///< of the last substep, ascending
+  std::vector<SoftContact> softContacts;  ///< of the last step, ascending
+  std::vector<SoftPair> softPairs;        ///< likewise, by key
+  std::vector<uint32_t> couplings;        ///< joint slots, ascending
+  bool jointForces = false;               ///< some joint was given a force for the next step
+  uint32_t breakable = 0;                 ///< how many joints have a bound in `breaks`
+  PairList pairs;                         ///< that are awake
+  std::vector<uint64_t> excludedPairs;    ///< body slots, low << 32 | high, sorted, each as often as it was excluded
+  DynamicTree tree;                       ///< fat bounds of all shapes; user data is the shape's slot
   /// Shapes whose pairs have to be found anew (made, moved by the user, refiltered): slots, ascending, each once.
   std::vector<uint32_t> unpaired;
   /// Shapes whose pairs above are void (moved, refiltered, destroyed): World::step drops them first. Slots likewise.
