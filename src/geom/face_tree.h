@@ -20,6 +20,9 @@ class FaceTree {
   size_t nodeCount() const { return nodes_.size(); }
   /// Bounds of all nodes from those of the faces.
   void refit(std::span<const Aabb> faces, std::vector<Aabb>& bounds) const;
+  /// A value for each node: of(face), and merge(value, value) of those below it.
+  template <class T, class Of, class Merge>
+  void refit(std::vector<T>& nodes, Of&& of, Merge&& merge) const;
   /// Calls f(face) for the faces whose bounds overlap the box.
   template <class F>
   void query(const std::vector<Aabb>& bounds, const Aabb& box, F&& f) const;
@@ -31,9 +34,13 @@ class FaceTree {
   /// Calls f(face, other's face) for all faces of this tree and another whose bounds overlap.
   template <class F>
   void pairs(const Placed& at, const FaceTree& other, const Placed& otherAt, F&& f) const;
-  /// The same within this tree, each two faces once.
+  /// The same within this tree, each two faces once; none of two nodes where skip(node, node).
+  template <class Skip, class F>
+  void pairs(const Placed& at, Skip&& skip, F&& f) const;
+  /// Calls f(face), which returns the square of a distance from p, for the faces whose bounds are within the least
+  /// that it has returned yet, or `within`. Those near p come first.
   template <class F>
-  void pairs(const Placed& at, F&& f) const;
+  void nearest(const std::vector<Aabb>& bounds, Vec3 p, float within, F&& f) const;
 
  private:
   static constexpr uint32_t kLeaf = 4;  ///< most faces in a leaf
@@ -76,6 +83,48 @@ void FaceTree::query(const std::vector<Aabb>& bounds, const Aabb& box, F&& f) co
   }
 }
 
+template <class T, class Of, class Merge>
+void FaceTree::refit(std::vector<T>& nodes, Of&& of, Merge&& merge) const {
+  nodes.resize(nodes_.size());
+  for (size_t i = nodes_.size(); i-- > 0;) {
+    const Node& node = nodes_[i];
+    nodes[i] = node.count > 0 ? of(order_[node.begin]) : merge(nodes[i + 1], nodes[node.right]);
+    for (uint32_t k = node.begin + 1; k < node.begin + node.count; ++k) nodes[i] = merge(nodes[i], of(order_[k]));
+  }
+}
+
+inline float squaredDistance(const Aabb& box, Vec3 p) {
+  const auto beyond = [](float lower, float upper, float x) {
+    return x < lower ? lower - x : x > upper ? x - upper : 0;
+  };
+  const Vec3 off{beyond(box.lower.x, box.upper.x, p.x), beyond(box.lower.y, box.upper.y, p.y),
+                 beyond(box.lower.z, box.upper.z, p.z)};
+  return dot(off, off);
+}
+
+template <class F>
+void FaceTree::nearest(const std::vector<Aabb>& bounds, Vec3 p, float within, F&& f) const {
+  struct Entry {
+    uint32_t node;
+    float distance2;
+  };
+  Entry stack[64];
+  int size = 0;
+  float least2 = within * within;
+  stack[size++] = {0, squaredDistance(bounds[0], p)};
+  while (size > 0) {
+    const Entry entry = stack[--size];
+    if (entry.distance2 > least2) continue;
+    const Node& node = nodes_[entry.node];
+    for (uint32_t k = node.begin; k < node.begin + node.count; ++k) least2 = std::min(least2, f(order_[k]));
+    if (node.count > 0) continue;
+    Entry left{entry.node + 1, squaredDistance(bounds[entry.node + 1], p)};
+    Entry right{node.right, squaredDistance(bounds[node.right], p)};
+    if (left.distance2 < right.distance2) std::swap(left, right);
+    stack[size++] = left, stack[size++] = right;
+  }
+}
+
 inline bool meet(const Aabb& a, const FaceTree::Placed& atB, const Aabb& b) {
   return overlaps(a, {b.lower + atB.lower, b.upper + atB.upper});
 }
@@ -108,8 +157,8 @@ void FaceTree::pairs(const Placed& at, const FaceTree& other, const Placed& othe
   }
 }
 
-template <class F>
-void FaceTree::pairs(const Placed& at, F&& f) const {
+template <class Skip, class F>
+void FaceTree::pairs(const Placed& at, Skip&& skip, F&& f) const {
   NodePair stack[kStack];
   int size = 0;
   stack[size++] = {0, 0};
@@ -117,6 +166,7 @@ void FaceTree::pairs(const Placed& at, F&& f) const {
     const NodePair pair = stack[--size];
     const Node &a = nodes_[pair.a], &b = nodes_[pair.b];
     if (pair.a != pair.b && !overlaps(at.nodes[pair.a], at.nodes[pair.b])) continue;
+    if (skip(pair.a, pair.b)) continue;
     if (a.count > 0 && b.count > 0) {
       if (pair.a != pair.b) {
         leafPairs(at, a, *this, at, b, f);

@@ -71,7 +71,11 @@ TEST(FaceTree, FindsEachTwoFacesThatOverlapOnce) {
   EXPECT_EQ(found, expected);
 
   found.clear(), expected.clear();
-  mesh->faceTree().pairs(a, [&](uint32_t i, uint32_t k) { found.push_back({std::min(i, k), std::max(i, k)}); });
+  mesh->faceTree().pairs(
+      a, [](uint32_t, uint32_t) { return false; },
+      [&](uint32_t i, uint32_t k) {
+        found.push_back({std::min(i, k), std::max(i, k)});
+      });
   for (uint32_t i = 0; i < boxes[0].size(); ++i)
     for (uint32_t k = i + 1; k < boxes[0].size(); ++k)
       if (overlaps(boxes[0][i], boxes[0][k])) expected.push_back({i, k});

@@ -100,11 +100,11 @@ std::shared_ptr<const SoftMeshData> finish(std::unique_ptr<SoftMeshData::Parts> 
   findRest(p);
   p.faceTree = std::make_unique<const FaceTree>(p.points, p.surface);
   p.features = surfaceFeatures(p.points.size(), p.surface);
+  p.atRest = SurfaceAtRest(p.points, *p.faceTree, p.surface);
   double edges = 0;
   for (const auto& face : p.surface) {
     const Vec3d a = toDouble(p.points[face[0]]), b = toDouble(p.points[face[1]]), c = toDouble(p.points[face[2]]);
     for (const Vec3d& edge : {b - a, c - b, a - c}) edges += std::sqrt(dot(edge, edge));
-    p.faceCentres.push_back(toFloat((a + b + c) * (1.0 / 3)));
     const Vec3d normal = crossOf(b - a, c - a);
     p.area += std::sqrt(dot(normal, normal)) / 2;
   }

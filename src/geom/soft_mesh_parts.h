@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geom/face_tree.h"
+#include "geom/surface_at_rest.h"
 #include "geom/surface_features.h"
 
 namespace avbd {
@@ -48,8 +49,8 @@ struct SoftMeshData::Parts {
   std::vector<StarPoint> starPoints;
   std::vector<float> starVolumes;
   std::unique_ptr<const FaceTree> faceTree;
-  SurfaceFeatures features;       ///< of the surface
-  std::vector<Vec3> faceCentres;  ///< likewise, at rest
+  SurfaceFeatures features;  ///< of the surface
+  SurfaceAtRest atRest;      ///< likewise
   float faceSize = 0;
   double volume = 0, area = 0;
   uint64_t hash = 0;

@@ -17,7 +17,7 @@ struct Backend {
   void (*prepareOthers)(const BatchView&, const SolveSettings&);
   /// Adds rows to gradient and hessian and keeps each pair's 6x6; with `dual` moves the multipliers first.
   void (*stampContacts)(const BatchView&, const SolveSettings&, bool dual, Slice tiles);
-  void (*stampOthers)(const BatchView&, const SolveSettings&, bool dual);
+  void (*stampOthers)(const BatchView&, const SolveSettings&, bool dual, ElementBlocks);
   void (*updateContacts)(const BatchView&, const SolveSettings&, Slice tiles);
   void (*updateOthers)(const BatchView&, const SolveSettings&);
 

@@ -149,7 +149,8 @@ struct BatchView {
   float* invMass = nullptr;   ///< (1/m, I^-1 ..., -); 0 for static and kinematic
   float* diagonal = nullptr;  ///< as mass, with the geometric stiffness of joints
   float* gradient = nullptr;
-  float* hessian = nullptr;             ///< kHessianRow floats a body
+  float* hessian = nullptr;        ///< kHessianRow floats a body
+  float* elementBlocks = nullptr;  ///< what the elements of soft bodies have in it: 8 floats a body, 6 of them used
   Tile<rows::Sym6>* inverse = nullptr;  ///< of 16 bodies: their inverse blocks
   float *x = nullptr, *r = nullptr, *z = nullptr, *p = nullptr, *q = nullptr;
   float* step = nullptr;     ///< a float a row: length of a step of its island's search
@@ -181,6 +182,10 @@ struct BatchView {
   const uint8_t* locks = nullptr;
   uint32_t lockedCount = 0;
 };
+
+/// Blocks of the elements of soft bodies in the hessian, which precondition and no more: they are worth computing once
+/// a step.
+enum class ElementBlocks { None, New, Kept };
 
 /// What a step asks of the solver.
 struct SolveSettings {

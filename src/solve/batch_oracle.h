@@ -68,13 +68,15 @@ class TestBatch {
   std::vector<uint32_t> locked;
   std::vector<uint8_t> locks;
   Forest forest;
-  AlignedVector<float> d, target, mass, invMass, diagonal, gradient, hessian, x, r, z, p, q, step, product;
+  AlignedVector<float> d, target, mass, invMass, diagonal, gradient, hessian, elementBlocks, x, r, z, p, q, step,
+      product;
 
   TestBatch(uint32_t dynamicBodies, uint32_t kinematicBodies) : bodies_(dynamicBodies) {
     rows_ = (dynamicBodies + 1 + kinematicBodies + kTile - 1) / kTile * kTile;
     for (auto* array : {&d, &target, &mass, &invMass, &diagonal, &gradient, &x, &r, &z, &p, &q})
       array->assign(8 * rows_, 0.0f);
     hessian.assign(kHessianRow * rows_, 0.0f);
+    elementBlocks.assign(8 * rows_, 0.0f);
     step.assign(rows_, 0.0f), product.assign(rows_, 0.0f);
     inverse_.resize(rows_ / kTile);
   }
@@ -104,6 +106,7 @@ class TestBatch {
     v.islands = static_cast<uint32_t>(islands.size()), v.island = islands.data();
     v.d = d.data(), v.target = target.data(), v.mass = mass.data(), v.invMass = invMass.data();
     v.diagonal = diagonal.data(), v.gradient = gradient.data(), v.hessian = hessian.data();
+    v.elementBlocks = elementBlocks.data();
     v.inverse = inverse_.data();
     v.x = x.data(), v.r = r.data(), v.z = z.data(), v.p = p.data(), v.q = q.data();
     v.step = step.data(), v.product = product.data();

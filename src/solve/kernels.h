@@ -201,7 +201,7 @@ void stampTets(const BatchView& v, bool dual) {
     op.k = sink.k;
     v.tets.op[t].store<N>(o, op);
     scatterVectors<4>(v.gradient, v.tets.node, at, sink.gradient);
-    scatterBlocks<4>(v, v.tets.node, at, sink.diagonal);
+    scatterBlocks<4>(v.hessian, kHessianRow, v.tets.node, at, sink.diagonal);
   });
 }
 
@@ -209,15 +209,14 @@ void stampContacts(const BatchView& v, const SolveSettings& s, bool dual, Slice 
   stampPairs<Contact, false>(v, v.contacts, tiles, v.op, s.contactLeak, dual);
 }
 
-void stampOthers(const BatchView& v, const SolveSettings& s, bool dual) {
+void stampOthers(const BatchView& v, const SolveSettings& s, bool dual, ElementBlocks blocks) {
   Tile<PairOp>* op = v.op + v.contacts.tiles;
   stampPairs<BallJoint, true>(v, v.balls, {0, v.balls.tiles}, op, s.jointLeak, dual);
   op += v.balls.tiles;
   stampPairs<FixedJoint, true>(v, v.fixed, {0, v.fixed.tiles}, op, s.jointLeak, dual);
   stampFull(v, s.contactLeak, dual);
   stampTets(v, dual);
-  stampSofts(v, dual);
-  stampStars(v, dual);
+  stampSofts(v, dual, blocks);
   stampNodeContacts(v, s.contactLeak, dual);
 }
 

@@ -23,6 +23,9 @@ namespace {
 
 constexpr float kSettled = 3e-5f;           ///< relative change of a tree's pose that ends its outer iterations
 constexpr float kRelativeResidual = 1e-9f;  ///< of r . M^-1 r, squared norm: an island below it is solved
+/// The same with elements: their energy is not quadratic, and the next outer iteration, whose products cost the most
+/// there, goes on from a better place.
+constexpr float kRelativeResidualSoft = 1e-3f;
 
 /// All bodies stand in trees, which factor their own blocks.
 bool isForest(const BatchView& view, const Forest* forest) { return forest && forest->nodes.size() == view.bodies; }
@@ -30,7 +33,7 @@ bool isForest(const BatchView& view, const Forest* forest) { return forest && fo
 /// The preconditioner solves the island in one go.
 bool isExact(const IslandRange& island) { return island.hasTree && !island.coupled; }
 
-enum class Phase { First, Outer, Newton };
+enum class Phase { Start, First, Outer, Newton };
 
 bool any(const std::vector<uint8_t>& islands) { return std::find(islands.begin(), islands.end(), 1) != islands.end(); }
 
@@ -115,7 +118,7 @@ class Krylov {
     for (uint32_t n = 0; n < v_.islands; ++n) {
       if (!s_.active[n]) continue;
       s_.rz[n] = sum(n);
-      s_.limit[n] = std::max(kRelativeResidual * s_.rz[n], s_.least[n]);
+      s_.limit[n] = std::max((v_.deform ? kRelativeResidualSoft : kRelativeResidual) * s_.rz[n], s_.least[n]);
       s_.active[n] = s_.rz[n] > s_.least[n];
     }
   }
@@ -231,13 +234,16 @@ void stamp(const BatchView& view, const KrylovTools& tools, const SolveSettings&
            KrylovScratch& scratch) {
   const Backend& k = tools.backend;
   const Parts parts(view, tools.jobs);
-  const bool dual = phase != Phase::First, outer = phase == Phase::Outer;
+  const bool dual = phase == Phase::Outer || phase == Phase::Newton, outer = phase == Phase::Outer;
+  const ElementBlocks blocks = phase == Phase::Start   ? ElementBlocks::None
+                               : phase == Phase::First ? ElementBlocks::New
+                                                       : ElementBlocks::Kept;
   parts.chunks([&](const Chunk& chunk) {
     k.beginRows(view, chunk.rows);
     k.stampContacts(view, settings, outer, chunk.tiles);
   });
   parts.seams([&](Slice tiles) { k.stampContacts(view, settings, outer, tiles); });
-  k.stampOthers(view, settings, outer);
+  k.stampOthers(view, settings, outer, blocks);
   stiffenSwept(view);
   stampScalar(view, settings.jointLeak, dual, scratch.unsolved.data());
   stampLinked(view, dual ? settings.jointLeak : 1, scratch.unsolved.data());
@@ -329,7 +335,7 @@ float dotRange(const float* a, const float* b, const IslandRange& island) {
 /// d takes in as much of `whole` and `deform` as lowers the energy of the step, island by island.
 void startSofts(const BatchView& view, const KrylovTools& tools, const SolveSettings& settings, Forest* forest,
                 KrylovScratch& scratch) {
-  stamp(view, tools, settings, forest, Phase::First, scratch);
+  stamp(view, tools, settings, forest, Phase::Start, scratch);
   Krylov krylov(view, tools, forest, scratch);
   std::vector<StartSums>& sums = scratch.start;
   sums.assign(view.islands, {});

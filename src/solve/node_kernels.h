@@ -43,21 +43,20 @@ AVBD_INLINE void scatterVectors(float* array, NodeRows rows, uint32_t at, const 
 
 /// Of the nodes' blocks of 3 x 3.
 template <int nodes>
-AVBD_INLINE void scatterBlocks(const BatchView& v, NodeRows rows, uint32_t at, const Sym3<R> (&block)[4]) {
+AVBD_INLINE void scatterBlocks(float* array, int stride, NodeRows rows, uint32_t at, const Sym3<R> (&block)[4]) {
   R out[4][6];
   for (int i = 0; i < nodes; ++i) {
     const Sym3<R>& m = block[i];
     const R entries[6] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
     for (int k = 0; k < 6; ++k) out[i][k] = entries[k];
   }
-  scatterNodes<nodes>(v.hessian, kHessianRow, rows, at, out);
+  scatterNodes<nodes>(array, stride, rows, at, out);
 }
 
 /// What an element adds to its nodes, and to the products.
 template <class Op>
 struct ElementStamp {
   V3<R> gradient[4];
-  Sym3<R> block[4];
   Op op;
 };
 
@@ -66,9 +65,12 @@ AVBD_INLINE ElementStamp<ElasticOp<R>> stampOf(const TetElastic<R>& tet, const V
   const Deformation<R> s = tet.deformation(d);
   stamp.op = tet.op(s);
   tet.gradient(s, stamp.op, stamp.gradient);
-  const V3<R> g[4] = {-(tet.gb + tet.gc + tet.gd), tet.gb, tet.gc, tet.gd};
-  for (int i = 0; i < 4; ++i) stamp.block[i] = solidBlock(stamp.op.solid, g[i]);
   return stamp;
+}
+
+AVBD_INLINE void blocksOf(const TetElastic<R>& tet, const ElasticOp<R>& op, Sym3<R> (&block)[4]) {
+  const V3<R> g[4] = {-(tet.gb + tet.gc + tet.gd), tet.gb, tet.gc, tet.gd};
+  for (int i = 0; i < 4; ++i) block[i] = solidBlock(op.solid, g[i]);
 }
 
 AVBD_INLINE ElementStamp<TriangleOp<R>> stampOf(const TriangleElastic<R>& triangle, const V3<R> (&d)[4]) {
@@ -76,34 +78,46 @@ AVBD_INLINE ElementStamp<TriangleOp<R>> stampOf(const TriangleElastic<R>& triang
   const Stretch<R> s = triangle.stretch(d);
   triangle.gradient(s, stamp.gradient);
   stamp.op = triangle.op(s);
-  stamp.block[0] = triangleBlock(stamp.op, -(triangle.bx + triangle.cx), -(triangle.by + triangle.cy));
-  stamp.block[1] = triangleBlock(stamp.op, triangle.bx, triangle.by);
-  stamp.block[2] = triangleBlock(stamp.op, triangle.cx, triangle.cy);
-  stamp.block[3] = diagonal(zeroV3<R>());
   return stamp;
+}
+
+AVBD_INLINE void blocksOf(const TriangleElastic<R>& triangle, const TriangleOp<R>& op, Sym3<R> (&block)[4]) {
+  block[0] = triangleBlock(op, -(triangle.bx + triangle.cx), -(triangle.by + triangle.cy));
+  block[1] = triangleBlock(op, triangle.bx, triangle.by);
+  block[2] = triangleBlock(op, triangle.cx, triangle.cy);
+  block[3] = diagonal(zeroV3<R>());
 }
 
 AVBD_INLINE ElementStamp<BendOp<R>> stampOf(const ClothBend<R>& bend, const V3<R> (&d)[4]) {
   ElementStamp<BendOp<R>> stamp;
   bend.gradient(d, stamp.gradient);
   stamp.op = bend.op();
-  for (int i = 0; i < 4; ++i) {
-    const R k = bend.k * (bend.weight[i] * bend.weight[i]);
-    stamp.block[i] = diagonal(V3<R>{k, k, k});
-  }
   return stamp;
 }
 
+AVBD_INLINE void blocksOf(const ClothBend<R>& bend, const BendOp<R>&, Sym3<R> (&block)[4]) {
+  for (int i = 0; i < 4; ++i) {
+    const R k = bend.k * (bend.weight[i] * bend.weight[i]);
+    block[i] = diagonal(V3<R>{k, k, k});
+  }
+}
+
+constexpr int kElementBlock = 8;  ///< floats of a row of BatchView::elementBlocks
+
 template <template <class> class Family, template <class> class Op>
-void stampElements(const BatchView& v, const NodeTiles<Family, Op>& all) {
+void stampElements(const BatchView& v, const NodeTiles<Family, Op>& all, bool blocks) {
   forLanes({0, all.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     V3<R> d[4];
     gatherNodes(all.node, v.d, at, d);
-    const auto stamp = stampOf(all.tile[t].template load<N>(o), d);
+    const Family<R> element = all.tile[t].template load<N>(o);
+    const auto stamp = stampOf(element, d);
     all.op[t].template store<N>(o, stamp.op);
     scatterVectors<Family<R>::kBlocks>(v.gradient, all.node, at, stamp.gradient);
-    scatterBlocks<Family<R>::kBlocks>(v, all.node, at, stamp.block);
+    if (!blocks) return;
+    Sym3<R> block[4];
+    blocksOf(element, stamp.op, block);
+    scatterBlocks<Family<R>::kBlocks>(v.elementBlocks, kElementBlock, all.node, at, block);
   });
 }
 
@@ -133,13 +147,6 @@ void prepareTriangles(const BatchView& v, float factor) {
     c.floor = floorStiffness(c.floor, w * 0.5f, factor);
     all.tile[t].store<N>(o, c);
   });
-}
-
-void stampSofts(const BatchView& v, bool dual) {
-  if (dual) dualTriangles(v);
-  stampElements(v, v.elastic);
-  stampElements(v, v.triangles);
-  stampElements(v, v.bends);
 }
 
 /// H p of a row over four nodes.

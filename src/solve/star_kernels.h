@@ -56,7 +56,7 @@ AVBD_INLINE void spreadStars(const StarTiles& stars, float* array, uint32_t at, 
 
 AVBD_INLINE void addStarBlock(const BatchView& v, uint32_t row, const Sym3<float>& m) {
   const float entries[6] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
-  for (int k = 0; k < 6; ++k) v.hessian[size_t(kHessianRow) * row + static_cast<size_t>(k)] += entries[k];
+  for (int k = 0; k < 6; ++k) v.elementBlocks[size_t(kElementBlock) * row + static_cast<size_t>(k)] += entries[k];
 }
 
 AVBD_INLINE void addStarBlocks(const BatchView& v, uint32_t star) {
@@ -71,7 +71,7 @@ AVBD_INLINE void addStarBlocks(const BatchView& v, uint32_t star) {
   addStarBlock(v, v.stars.center[star], solidBlock(op, center));
 }
 
-void stampStars(const BatchView& v, bool dual) {
+void stampStars(const BatchView& v, bool dual, bool blocks) {
   forLanes({0, v.stars.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
     StarElastic<R> star = v.stars.tile[t].load<N>(o);
@@ -83,8 +83,25 @@ void stampStars(const BatchView& v, bool dual) {
     const SolidOp<R> op = star.op(s);
     v.stars.op[t].store<N>(o, op);
     spreadStars(v.stars, v.gradient, at, star.stress(s, op));
-    for (uint32_t l = 0; l < N; ++l) addStarBlocks(v, at + l);
+    for (uint32_t l = 0; blocks && l < N; ++l) addStarBlocks(v, at + l);
   });
+}
+
+void addElementBlocks(const BatchView& v) {
+  for (size_t row = 0; row < v.rows; ++row)
+    for (size_t k = 0; k < 6; ++k) v.hessian[kHessianRow * row + k] += v.elementBlocks[kElementBlock * row + k];
+}
+
+void stampSofts(const BatchView& v, bool dual, ElementBlocks blocks) {
+  if (v.elastic.tiles + v.triangles.tiles + v.bends.tiles + v.stars.tiles == 0) return;
+  const bool isNew = blocks == ElementBlocks::New;
+  if (isNew) std::fill_n(v.elementBlocks, size_t(kElementBlock) * v.rows, 0.0f);
+  if (dual) dualTriangles(v);
+  stampElements(v, v.elastic, isNew);
+  stampElements(v, v.triangles, isNew);
+  stampElements(v, v.bends, isNew);
+  stampStars(v, dual, isNew);
+  if (blocks != ElementBlocks::None) addElementBlocks(v);
 }
 
 void multiplyStars(const BatchView& v) {

@@ -55,7 +55,7 @@ void prepare(TestBatch& batch, const BatchView& view) {
   kernels.beginRows(view, {0, view.rows});
   const SolveSettings settings{.h = TestBatch::kStep};
   kernels.stampContacts(view, settings, false, {0, view.contacts.tiles});
-  kernels.stampOthers(view, settings, false);
+  kernels.stampOthers(view, settings, false, ElementBlocks::New);
   batch.forest.stamp(view, kAll);
   if (view.lockedCount) applyLocks(view);
   batch.forest.factor(view, kAll);

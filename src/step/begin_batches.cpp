@@ -192,6 +192,7 @@ void resizeRows(StepData& step, uint32_t rows) {
     makeRoom(*array, size_t(8) * rows);
   for (auto* array : {&step.length, &step.product}) makeRoom(*array, rows);
   makeRoom(step.hessian, size_t(kHessianRow) * rows);
+  makeRoom(step.elementBlocks, size_t(8) * rows);
   makeRoom(step.body, rows / kTile), makeRoom(step.free, rows / kTile), makeRoom(step.endTiles, rows / kTile);
   makeRoom(step.inverse, rows / kTile);
 }
@@ -297,6 +298,7 @@ BatchView StepData::view(size_t index) {
   v.diagonal = diagonal.data() + at, v.gradient = gradient.data() + at;
   if (b.hasElements() && !whole.empty()) v.whole = whole.data() + at, v.deform = deform.data() + at;
   v.hessian = hessian.data() + size_t(kHessianRow) * b.rowBegin;
+  if (b.hasElements()) v.elementBlocks = elementBlocks.data() + at;
   v.inverse = inverse.data() + b.rowBegin / kTile;
   v.x = x.data() + at, v.r = r.data() + at, v.z = z.data() + at, v.p = p.data() + at, v.q = q.data() + at;
   v.step = length.data() + b.rowBegin, v.product = product.data() + b.rowBegin;

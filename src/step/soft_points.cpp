@@ -12,6 +12,8 @@ namespace avbd {
 
 namespace {
 
+constexpr float kAsNear = 1e-5f;  ///< share of the square of a distance
+
 /// The face nearest to a point. Where two are as near, as at an edge, the one that the point is most in front or
 /// behind.
 struct Search {
@@ -22,7 +24,6 @@ struct Search {
   float distance2 = 0, upright = 0;
 
   void meet(uint32_t index, Vec3 a, Vec3 b, Vec3 c) {
-    constexpr float kAsNear = 1e-5f;
     const NearestOnFace here = nearestOnFace(p, a, b, c);
     const Vec3 off = p - here.point, n = cross(b - a, c - a);
     const float d2 = dot(off, off), size = length(n);
@@ -54,16 +55,17 @@ class PointSearch {
     const Aabb all{bounds.lower - around, bounds.upper + around};
     for (uint32_t i = 0; i < points_.bodies.size(); ++i) {
       const Vec3 p = pointPlace_.points[i] + shift;
-      if (world_.bodies[points_.bodies[i]].firstShape != kNone && overlaps(all, {p, p})) look(i, p, around);
+      if (world_.bodies[points_.bodies[i]].firstShape != kNone && overlaps(all, {p, p})) look(i, p, reach);
     }
   }
 
  private:
-  void look(uint32_t point, Vec3 p, Vec3 around) {
+  void look(uint32_t point, Vec3 p, float reach) {
     Search search{p, kNone, {}, {}};
-    faces_.mesh->faceTree().query(facePlace_.bounds, {p - around, p + around}, [&](uint32_t face) {
+    faces_.mesh->faceTree().nearest(facePlace_.bounds, p, reach, [&](uint32_t face) {
       const auto& corner = faces_.mesh->surface()[face];
       search.meet(face, facePlace_.points[corner[0]], facePlace_.points[corner[1]], facePlace_.points[corner[2]]);
+      return search.face == kNone ? reach * reach : search.distance2 * (1 + 2 * kAsNear);
     });
     if (search.face == kNone) return;
     const float distance = rows::sqrt(search.distance2), size = faces_.mesh->faceSize();

@@ -25,41 +25,6 @@ Vec3 freeWay(const WorldData& world, const BodyData& body, float h) {
   return unlocked((body.linearVelocity + world.def.gravity * (body.gravityScale * h)) * h, body.locks);
 }
 
-Vec3 normalOf(Vec3 a, Vec3 b, Vec3 c) {
-  const Vec3 n = cross(b - a, c - a);
-  const float size2 = dot(n, n);
-  return size2 > 0 ? n * (1 / rows::sqrt(size2)) : Vec3{};
-}
-
-constexpr float kFlat =
-    0.966f;  ///< cosine of the angle between a face of flat surroundings and the mean around a point
-constexpr float kAlike = 0.866f;  ///< of that between two such that lie beside each other: faces around them stay
-                                  ///< within a right angle of each other
-
-/// Unmarks the faces with a point around which some face is turned away from the others.
-void keepFlat(std::span<const FaceTree::Face> faces, const std::vector<Vec3>& normals, FlatScratch& scratch,
-              std::vector<uint8_t>& flat) {
-  std::fill(scratch.normals.begin(), scratch.normals.end(), Vec3{});
-  std::fill(scratch.bent.begin(), scratch.bent.end(), uint8_t{0});
-  for (size_t f = 0; f < faces.size(); ++f)
-    for (const uint32_t p : faces[f]) scratch.normals[p] = scratch.normals[p] + normals[f];
-  for (size_t f = 0; f < faces.size(); ++f)
-    for (const uint32_t p : faces[f]) {
-      const Vec3 mean = scratch.normals[p];
-      const float along = dot(mean, normals[f]);
-      if (!(along > 0 && along * along > kFlat * kFlat * dot(mean, mean))) scratch.bent[p] = 1;
-    }
-  for (size_t f = 0; f < faces.size(); ++f)
-    for (const uint32_t p : faces[f]) flat[f] = flat[f] && !scratch.bent[p];
-}
-
-void findFlat(const SoftMeshData& mesh, FlatScratch& scratch, SoftPlace& place) {
-  scratch.normals.resize(place.points.size()), scratch.bent.resize(place.points.size());
-  place.flat.assign(mesh.surface().size(), 1);
-  keepFlat(mesh.surface(), place.normals, scratch, place.flat);
-  keepFlat(mesh.surface(), place.endNormals, scratch, place.flat);
-}
-
 /// Of faces and edges from those of their points.
 void boxFeatures(const SoftMeshData& mesh, SoftPlace& place) {
   const auto faces = mesh.surface();
@@ -92,8 +57,8 @@ void findNormals(const SoftMeshData& mesh, SoftPlace& place) {
   for (size_t f = 0; f < faces.size(); ++f) {
     const auto start = [&](size_t k) { return place.points[faces[f][k]]; };
     const auto end = [&](size_t k) { return start(k) + place.ways[faces[f][k]]; };
-    place.normals[f] = normalOf(start(0), start(1), start(2));
-    place.endNormals[f] = normalOf(end(0), end(1), end(2));
+    place.normals[f] = unitNormal(start(0), start(1), start(2));
+    place.endNormals[f] = unitNormal(end(0), end(1), end(2));
   }
 }
 
@@ -144,19 +109,20 @@ void sweep(const WorldData& world, SoftSurfaces& s) {
   std::sort(s.pairs.begin(), s.pairs.end());
 }
 
-constexpr float kBeside = 3;  ///< sizes of faces: within that at rest two lie beside each other
+constexpr float kBeside = 3;  ///< sizes of faces: within that at rest two may lie beside each other
 
-/// What lies beside each other at rest is near only where the surface bends between.
+/// Leaves out what lies beside each other where the surface turns as one.
 void nearWithin(const SoftData& soft, const SoftPlace& place, uint32_t slot, std::vector<NearFaces>& near) {
-  const std::vector<Vec3>& rest = soft.mesh->parts().faceCentres;
-  const float beside = kBeside * soft.mesh->faceSize();
-  const auto liesBeside = [&](uint32_t a, uint32_t b) {
-    const Vec3 off = rest[a] - rest[b];
-    return place.flat[a] && place.flat[b] && dot(off, off) < beside * beside &&
-           dot(place.normals[a], place.normals[b]) > kAlike && dot(place.endNormals[a], place.endNormals[b]) > kAlike;
+  const SurfaceAtRest& rest = soft.mesh->parts().atRest;
+  const auto faces = soft.mesh->surface();
+  const float size = kBeside * soft.mesh->faceSize();
+  const bool isCloth = soft.mesh->isCloth();
+  const auto skip = [&](uint32_t a, uint32_t b) {
+    return rest.nodesAreBeside(a, b, size) && nodesTurnAsOne(place.turns, a, b);
   };
-  soft.mesh->faceTree().pairs({place.faces, place.bounds, {}, {}}, [&](uint32_t a, uint32_t b) {
-    if (!liesBeside(a, b)) near.push_back({slot, slot, a, b});
+  soft.mesh->faceTree().pairs({place.faces, place.bounds, {}, {}}, skip, [&](uint32_t a, uint32_t b) {
+    if (!rest.areBeside(a, b, size, isCloth) || !turnAsOne(place.turns, faces[a][0], faces[b][0]))
+      near.push_back({slot, slot, a, b});
   });
 }
 
@@ -300,7 +266,7 @@ void findNearFaces(const WorldData& world, SoftSurfaces& s) {
     if (!soft.selfContact || isAsleep(world, soft)) return;
     SoftPlace& place = s.places[slot];
     const size_t before = s.near.size();
-    findFlat(*soft.mesh, s.flatness, place);
+    findTurns(*soft.mesh, place, s.turnScratch, place.turns);
     nearWithin(soft, place, slot, s.near);
     place.tangled = !soft.mesh->isCloth() && isTangled(*soft.mesh, place, std::span(s.near).subspan(before));
     if (place.tangled) s.near.resize(before);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geom/face_tree.h"
+#include "step/surface_turns.h"
 #include "world/world_data.h"
 
 namespace avbd {
@@ -23,7 +24,7 @@ struct SoftPlace {
   std::vector<Vec3> points;               ///< from the origin, at the start
   std::vector<Vec3> ways;                 ///< [m] less the drift
   std::vector<Vec3> normals, endNormals;  ///< of the faces, unit; 0 of one without area
-  std::vector<uint8_t> flat;              ///< by face: it and all around it face about the same way, all the time
+  SurfaceTurns turns;                     ///< of a body that touches itself
   /// All that faces, points and edges pass over but for the drift, grown by half of what is near.
   std::vector<Aabb> faces, pointBoxes, edgeBoxes;
   std::vector<Aabb> bounds;  ///< of the tree's nodes
@@ -69,14 +70,8 @@ struct NearContact {
   float distance = 0;
 };
 
-/// Room to find `flat` in.
-struct FlatScratch {
-  std::vector<Vec3> normals;  ///< by point
-  std::vector<uint8_t> bent;  ///< likewise
-};
-
 struct SoftSurfaces {
-  FlatScratch flatness;
+  TurnScratch turnScratch;
   std::vector<uint32_t> shapes;       ///< near one body
   std::vector<NearContact> contacts;  ///< of the search at the start
   std::vector<SoftPlace> places;      ///< by slot

@@ -335,7 +335,8 @@ struct StepData {
   UnwrittenVector<Tile<FreeBody>> body;  ///< of all batches, as the rows
   UnwrittenVector<Tile<FreeMotion>> free;
   UnwrittenVector<Tile<EndMotion>> endTiles;
-  UnwrittenVector<float> d, target, mass, invMass, diagonal, gradient, hessian, x, r, z, p, q, length, product;
+  UnwrittenVector<float> d, target, mass, invMass, diagonal, gradient, hessian, elementBlocks, x, r, z, p, q, length,
+      product;
   std::vector<float> whole, deform;  ///< as in BatchView; only where there are soft bodies
   UnwrittenVector<Tile<rows::Sym6>> inverse;
   std::vector<uint32_t> lockedRows;
