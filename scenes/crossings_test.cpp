@@ -36,6 +36,20 @@ TEST(Crossings, OfAPointThatIsPulledThroughItsOwnClothAreSeen) {
   EXPECT_GT(crossings(world), 0);
 }
 
+TEST(Crossings, AreNoneOfAPointThrownOutOfItsOwnSolid) {
+  for (const float speed : {2.0f, 4.0f, 8.0f})
+    for (size_t at = 0; at < 27; ++at) {
+      World world(WorldDef{.gravity = {}});
+      const SoftId id = world.create(SoftDef{
+          .mesh = makeTetBox({0.1f, 0.1f, 0.1f}, 2, 2, 2), .material = {.youngsModulus = 1e3f}, .radius = 0.004f});
+      world.setVelocity(world.particles(id)[at], {{speed, -0.5f * speed, 0.2f * speed}, {}});
+      for (int i = 0; i < 20; ++i) {
+        world.step(1.0f / 60);
+        ASSERT_EQ(crossings(world), 0) << "point " << at << " at " << speed << " m/s, step " << i;
+      }
+    }
+}
+
 TEST(Crossings, DistanceIsThatOfTheSolid) {
   const Pose pose{{1, 2, 3}, turned({0, 0, 1}, 0.5)};
   const auto at = [&](Vec3d p) { return pose.position + rotate(pose.rotation, p); };

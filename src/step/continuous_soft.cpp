@@ -33,8 +33,9 @@ float keptDistance(float thickness, float distance) {
 }
 
 bool mayMeet(const WorldData& world, const NearFeatures& near, const FeatureContact& contact) {
-  // Behind the surface of a solid the way leads out through the face.
-  if (near.kind == TouchKind::PointFace && !contact.counts) return false;
+  // Behind the surface of another solid the way leads out through the face. Behind that of its own, which does not pass
+  // through itself, a point comes through only where what is between turns inside out.
+  if (near.kind == TouchKind::PointFace && !near.within() && !contact.counts) return false;
   return contact.distance > kUnseen * (world.softs[near.first].radius + world.softs[near.second].radius);
 }
 
