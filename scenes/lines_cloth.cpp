@@ -31,7 +31,8 @@ double lowestOf(const World& world, SoftId id) {
 
 const SoftMaterial kCanvas{.youngsModulus = 2e7f, .poissonRatio = 0, .density = 500, .thickness = 0.001f, .bending = 0};
 
-/// A rope 1 m long that hangs over 0.8 m: its sag against 2 a sinh(0.4 / a) = 1, depth a (cosh(0.4 / a) - 1).
+/// A rope 1 m long that hangs over 0.8 m, from a V as long as it is, since pressed together it would crumple: its sag
+/// against 2 a sinh(0.4 / a) = 1, depth a (cosh(0.4 / a) - 1).
 Figure rope(const Settings& settings) {
   World world(apply(settings, {}));
   const auto strip = makeClothGrid(0.5f, 0.01f, 50, 1);
@@ -39,7 +40,7 @@ Figure rope(const Settings& settings) {
   const std::vector<BodyId> beads = world.particles(id);
   for (size_t i = 0; i < beads.size(); ++i) {
     const Vec3 p = strip->points()[i];
-    world.setPose(beads[i], {{double{p.x} * 0.8, 0, double{p.z}}, {}});
+    world.setPose(beads[i], {{double{p.x} * 0.8, (std::fabs(double{p.x}) - 0.5) * 0.6, double{p.z}}, {}});
     if (std::fabs(p.x) < 0.499f) continue;
     world.setLocks(beads[i], kLockLinearX | kLockLinearY | kLockLinearZ);
   }
