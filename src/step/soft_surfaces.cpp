@@ -164,6 +164,8 @@ bool takeSolvedWays(const WorldData& world, StepData& step) {
       within = within && inside(way.x, thought.x) && inside(way.y, thought.y) && inside(way.z, thought.z);
       place.ways[i] = way;
     }
+    if (within && soft.selfContact && !place.tangled && !isAsleep(world, soft))
+      within = turnsAsThought(*soft.mesh, place, place.turns, step.softs.turnScratch);
   });
   return within;
 }

@@ -14,6 +14,9 @@ namespace {
 /// Of unit vectors 45 degrees apart. What turns by no more from a mean keeps 0.7 of the distances at rest along the
 /// surface, less what it is pressed together; features of one surface touch below half of them.
 constexpr float kAsOne = 0.765f;
+/// As much may point turns and face normals each differ from what was thought: then all is within 60 degrees of a mean,
+/// which keeps half of the distances.
+constexpr float kAsThought = 0.117f;
 constexpr float kAstray = 4;  ///< more than two turns can be apart
 
 /// What makes a frame of rest the frame of now.
@@ -104,6 +107,21 @@ void findTurns(const SoftMeshData& mesh, const SoftPlace& place, TurnScratch& sc
     spreadTurns(mesh, scratch.spreads, then->points);
     findRanges(mesh, *then);
   }
+}
+
+bool turnsAsThought(const SoftMeshData& mesh, const SoftPlace& place, const SurfaceTurns& turns, TurnScratch& scratch) {
+  const auto faces = mesh.surface();
+  scratch.endNormals.resize(faces.size());
+  for (size_t f = 0; f < faces.size(); ++f) {
+    const auto end = [&](size_t k) { return place.points[faces[f][k]] + place.ways[faces[f][k]]; };
+    scratch.endNormals[f] = unitNormal(end(0), end(1), end(2));
+    const Vec3 off = scratch.endNormals[f] - place.endNormals[f];
+    if (!(dot(off, off) < kAsThought * kAsThought)) return false;
+  }
+  turnPoints(mesh, scratch.endNormals, scratch.normals, place.points, &place.ways, scratch.turns);
+  for (size_t i = 0; i < scratch.turns.size(); ++i)
+    if (!(difference(scratch.turns[i], turns.end.points[i]) < kAsThought)) return false;
+  return true;
 }
 
 bool turnAsOne(const SurfaceTurns& turns, uint32_t a, uint32_t b) {

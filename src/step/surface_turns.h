@@ -40,9 +40,14 @@ struct SurfaceTurns {
 struct TurnScratch {
   std::vector<Vec3> normals;  ///< by point
   std::vector<float> spreads;
+  std::vector<Vec3> endNormals;
+  std::vector<PointTurn> turns;
 };
 
 void findTurns(const SoftMeshData& mesh, const SoftPlace& place, TurnScratch& scratch, SurfaceTurns& turns);
+
+/// Whether the surface turns on the ways by now about as it did on those of `turns`: what turned as one still does.
+bool turnsAsThought(const SoftMeshData& mesh, const SoftPlace& place, const SurfaceTurns& turns, TurnScratch& scratch);
 
 /// Whether all that is within two edges of either point has turned about as much, at the start and at the end.
 bool turnAsOne(const SurfaceTurns& turns, uint32_t a, uint32_t b);
