@@ -44,6 +44,20 @@ struct Contact {
   std::array<ContactPoint, 4> points;
 };
 
+/// A face or edge of a soft body and what it touches, which no Contact tells: a point or an edge of another one or of
+/// itself, or a shape that is none of its points' balls.
+struct SurfaceTouch {
+  SoftId soft;     ///< whose face or edge it is
+  SoftId other;    ///< the soft body whose point or edge touches it; null where a shape does
+  ShapeId shape;   ///< of a rigid body that touches it; else null
+  BodyId body;     ///< whose shape that is; else null
+  Vec3d position;  ///< world [m], on the face or edge of `soft`
+  Vec3 normal;     ///< unit, from `soft` to what touches it
+  /// [N] of the last substep, >= 0: pushes what touches along the normal and the face or edge against it.
+  float normalForce = 0;
+  Vec3 frictionForce;  ///< [N] on what touches
+};
+
 /// Two shapes began or ceased to touch: have, or no longer have, a point that carries force. Ids may be of shapes
 /// destroyed since. A touch shorter than a step begins in it, and ends in it or the next.
 struct TouchEvent {

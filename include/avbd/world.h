@@ -262,6 +262,9 @@ class World {
   std::vector<Contact> contacts() const;
   /// The same in place of what `out` holds: its memory is used again.
   void getContacts(std::vector<Contact>& out) const;
+  /// What faces and edges of soft bodies touch. What weighs on a soft body is the sum of these and its points'
+  /// contacts.
+  std::vector<SurfaceTouch> surfaceTouches() const;
   /// What began, ended and hit in the last step.
   const Events& events() const;
   /// Called in every substep for each contact of a shape with contactHook, before it is solved; may change the plan's

@@ -46,6 +46,46 @@ TEST_F(OnTheGround, TheGroundCarriesItsWeight) {
   for (const BodyId p : world.particles(soft)) EXPECT_GT(world.pose(p).position.y, 0.01 - 0.002);
 }
 
+TEST_F(OnTheGround, CarriesABoxByItsPointsAndFaces) {
+  const BodyId box = world.create(BodyDef{.position = {0, 0.72, 0}, .shape = Box{0.2f, 0.1f, 0.2f}, .mass = 20});
+  run(world, 240);
+  float byPoints = 0, byFaces = 0;
+  for (const Contact& contact : world.contacts())
+    for (int i = 0; i < contact.pointCount; ++i)
+      if (contact.bodyA == box || contact.bodyB == box) byPoints += contact.points[static_cast<size_t>(i)].normalForce;
+  for (const SurfaceTouch& touch : world.surfaceTouches()) {
+    EXPECT_EQ(touch.soft, soft);
+    EXPECT_EQ(touch.other, SoftId{});
+    EXPECT_EQ(touch.body, box);
+    EXPECT_EQ(touch.shape, world.shapes(box)[0]);
+    EXPECT_GT(touch.normal.y, 0.5f);
+    EXPECT_NEAR(touch.position.y, world.pose(box).position.y - 0.11, 0.03);
+    byFaces += touch.normalForce;
+  }
+  EXPECT_GT(byFaces, 10);
+  EXPECT_NEAR(byPoints + byFaces, 20 * 9.81, 0.01 * 20 * 9.81);
+}
+
+TEST_F(OnTheGround, CarriesAnotherByItsFaces) {
+  const auto small = makeTetBox({0.15f, 0.1f, 0.15f}, 3, 2, 3);
+  const SoftId upper =
+      world.create(SoftDef{.mesh = small, .pose = {{0, 0.68, 0}, {}}, .material = {.youngsModulus = 1e6f}});
+  run(world, 180);
+  float force = 0;
+  for (const SurfaceTouch& touch : world.surfaceTouches()) {
+    EXPECT_EQ(touch.body, BodyId{});
+    EXPECT_TRUE((touch.soft == soft && touch.other == upper) || (touch.soft == upper && touch.other == soft));
+    force += touch.normalForce * touch.normal.y * (touch.other == upper ? 1.0f : -1.0f);
+  }
+  for (const Contact& contact : world.contacts()) {
+    const SoftId a = world.softBody(contact.bodyA), b = world.softBody(contact.bodyB);
+    if (!a || !b || a == b) continue;
+    for (int i = 0; i < contact.pointCount; ++i)
+      force += contact.points[static_cast<size_t>(i)].normalForce * contact.normal.y * (b == upper ? 1.0f : -1.0f);
+  }
+  EXPECT_NEAR(force, 18 * 9.81, 0.02 * 18 * 9.81);
+}
+
 TEST_F(OnTheGround, FallsAsleepAndWakesAsAWhole) {
   run(world, 240);
   const std::vector<BodyId> particles = world.particles(soft);
