@@ -64,9 +64,20 @@ bench::BenchRecord peerRecord(const bench::Peer& peer, const scenes::Scene& scen
   }
 }
 
-bool isLayers(const bench::BenchRecord& r) {
-  return r.scene.starts_with("boxes_") && r.engine == "avbd" && r.workers == 1 && r.passed();
-}
+/// Scenes of one kind and many sizes.
+struct Family {
+  std::string prefix, of;
+  std::vector<bench::BenchRecord> records;
+
+  void add(const bench::BenchRecord& r) {
+    if (r.scene.starts_with(prefix) && r.workers == 1 && r.passed()) records.push_back(r);
+  }
+  std::string line() const {
+    const double exponent = bench::costExponent(records);
+    return std::isnan(exponent) ? ""
+                                : "cost grows as the number of " + of + " to the power " + digits(exponent, 3) + "\n";
+  }
+};
 
 }  // namespace
 
@@ -81,7 +92,7 @@ int benchCommand(const BenchArguments& a, std::ostream& out) {
     out << (a.json ? jsonText(r) + "\n" : recordLine(r, nameWidth)) << std::flush;
   };
   bool passed = true;
-  std::vector<bench::BenchRecord> sizes;
+  Family families[] = {{"boxes_", "boxes", {}}, {"slab_", "a slab's points", {}}};
   if (!a.json) out << headLine(nameWidth) << std::flush;
   for (const scenes::Scene* scene : list) {
     bench::BenchRecord first;
@@ -95,7 +106,7 @@ int benchCommand(const BenchArguments& a, std::ostream& out) {
       else if (ours.passed() && first.passed())
         ours.ratio = first.msMedian / ours.msMedian;
       passed = passed && ours.passed();
-      if (isLayers(ours)) sizes.push_back(ours);
+      for (Family& family : families) family.add(ours);
       show(ours);
     }
     for (const bench::Peer* peer : peers) {
@@ -105,8 +116,8 @@ int benchCommand(const BenchArguments& a, std::ostream& out) {
       show(theirs);
     }
   }
-  if (const double exponent = bench::costExponent(sizes); !a.json && !std::isnan(exponent))
-    out << "cost grows as the number of boxes to the power " << digits(exponent, 3) << "\n";
+  for (const Family& family : families)
+    if (!a.json) out << family.line();
   return passed ? kExitDone : kExitCheckFailed;
 }
 

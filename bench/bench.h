@@ -35,7 +35,7 @@ struct BenchRecord {
 /// This engine. Throws Error if the settings are refused.
 BenchRecord benchAvbd(const scenes::Scene& scene, const scenes::Settings& settings = {});
 
-/// Another engine with its default settings, over the bodies, shapes and joints that the scene makes.
+/// Another engine with its default settings, over the bodies, shapes, soft bodies and joints that the scene makes.
 struct Peer {
   const char* name;
   bool built;           ///< this program was built with it
@@ -48,6 +48,7 @@ std::span<const Peer> peers();
 const Peer* findPeer(std::string_view name);
 
 BenchRecord benchBullet(const scenes::Scene& scene);
+BenchRecord benchBullet4(const scenes::Scene& scene);  ///< with four steps a frame
 BenchRecord benchMujoco(const scenes::Scene& scene);
 BenchRecord benchOde(const scenes::Scene& scene);
 

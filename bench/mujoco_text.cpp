@@ -214,6 +214,8 @@ size_t Writer::makeRoom(size_t moving, size_t equalities) {
 }
 
 MujocoText Writer::write() {
+  if (!world_.softBodies().empty())
+    throw Error("benchMujoco", "scene", "soft bodies", "must have none: MuJoCo has flexes from 3.0 on");
   findTies();
   findTrees();
   size_t moving = 0, equalities = 0;

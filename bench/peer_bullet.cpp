@@ -1,5 +1,6 @@
-// Bullet as a peer: the same bodies, shapes and joints, its own defaults, one step a frame.
+// Bullet as a peer: the same bodies, shapes and joints, its own defaults, one step a frame or four.
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <avbd/height_field.h>
 #include <avbd/hull.h>
 #include <btBulletDynamicsCommon.h>
@@ -10,6 +11,7 @@
 #include <unordered_map>
 
 #include "bench/bench.h"
+#include "bench/peer_bullet_soft.h"
 
 namespace avbd::bench {
 namespace {
@@ -57,13 +59,15 @@ class HeightFieldShape final : public btHeightfieldTerrainShape {
 
 class BulletWorld final : public scenes::Engine {
  public:
-  BulletWorld(const World& source, const Layout& layout);
+  BulletWorld(const World& source, const Layout& layout, int substeps);
   ~BulletWorld() override;
-  void step(double dt) override { world_.stepSimulation(btScalar(dt), 0); }
+  void step(double dt) override;
   void poses(std::span<Pose> out) const override;
 
  private:
-  void addBody(const World& source, const Layout& layout, BodyId id);
+  void build(const World& source, const Layout& layout);
+  void clear();
+  void addBody(const World& source, BodyId id, size_t place);
   btCollisionShape* shapeOf(const World& source, BodyId id, const btTransform& massFrame, btTransform& shift);
   btCollisionShape* keep(std::unique_ptr<btCollisionShape> shape);
   template <class Joint>
@@ -72,21 +76,43 @@ class BulletWorld final : public scenes::Engine {
   void addFixed(const FixedJoint& def);
   void addConstraint(std::unique_ptr<btTypedConstraint> constraint, bool collide);
 
-  btDefaultCollisionConfiguration configuration_;
+  int substeps_;
+  btSoftBodyRigidBodyCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
   btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  std::unique_ptr<btDiscreteDynamicsWorld> rigid_;  ///< of a scene without soft bodies
+  std::unique_ptr<BulletSofts> softs_;              ///< of one with some
+  btDiscreteDynamicsWorld* world_ = nullptr;        ///< of either
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
   std::vector<btTransform> massFrames_;  ///< of each body: its mass frame in its own frame
+  std::vector<size_t> places_;           ///< of each body: which of the layout's it is
   std::vector<std::unique_ptr<btTypedConstraint>> constraints_;
   std::unordered_map<uint32_t, size_t> slots_;
 };
 
-BulletWorld::BulletWorld(const World& source, const Layout& layout) {
-  world_.setGravity(toBullet(source.definition().gravity));
-  for (const BodyId id : layout.bodies) addBody(source, layout, id);
+BulletWorld::BulletWorld(const World& source, const Layout& layout, int substeps) : substeps_(substeps) {
+  if (source.softBodies().empty()) {
+    rigid_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broadphase_, &solver_, &configuration_);
+    world_ = rigid_.get();
+  } else {
+    softs_ = std::make_unique<BulletSofts>(&dispatcher_, &broadphase_, &configuration_);
+    world_ = &softs_->world();
+  }
+  try {
+    build(source, layout);
+  } catch (...) {
+    clear();
+    throw;
+  }
+}
+
+void BulletWorld::build(const World& source, const Layout& layout) {
+  world_->setGravity(toBullet(source.definition().gravity));
+  for (size_t i = 0; i < layout.bodies.size(); ++i)
+    if (!source.softBody(layout.bodies[i])) addBody(source, layout.bodies[i], i);
+  if (softs_) softs_->add(source, layout);
   for (const JointId id : source.joints()) switch (source.type(id)) {
       case JointType::Ball:
         addBall(source.ballJoint(id));
@@ -99,14 +125,25 @@ BulletWorld::BulletWorld(const World& source, const Layout& layout) {
     }
 }
 
-BulletWorld::~BulletWorld() {
-  for (const auto& c : constraints_) world_.removeConstraint(c.get());
-  for (const auto& b : bodies_) world_.removeRigidBody(b.get());
+BulletWorld::~BulletWorld() { clear(); }
+
+// The worlds look at what is in them as they end.
+void BulletWorld::clear() {
+  for (const auto& c : constraints_) world_->removeConstraint(c.get());
+  for (const auto& b : bodies_) world_->removeRigidBody(b.get());
+}
+
+void BulletWorld::step(double dt) {
+  for (int i = 0; i < substeps_; ++i) {
+    world_->stepSimulation(btScalar(dt / substeps_), 0);
+  }
+  if (softs_) softs_->checkFinite();
 }
 
 void BulletWorld::poses(std::span<Pose> out) const {
   for (size_t i = 0; i < bodies_.size(); ++i)
-    out[i] = fromBullet(bodies_[i]->getCenterOfMassTransform() * massFrames_[i].inverse());
+    out[places_[i]] = fromBullet(bodies_[i]->getCenterOfMassTransform() * massFrames_[i].inverse());
+  if (softs_) softs_->poses(out);
 }
 
 btCollisionShape* BulletWorld::keep(std::unique_ptr<btCollisionShape> shape) {
@@ -165,7 +202,7 @@ btTransform principalFrame(const World& source, BodyId id, btVector3& inertia) {
   return btTransform(turn, toBullet(source.centerOfMass(id)));
 }
 
-void BulletWorld::addBody(const World& source, const Layout&, BodyId id) {
+void BulletWorld::addBody(const World& source, BodyId id, size_t place) {
   const bool dynamic = source.type(id) == BodyType::Dynamic;
   btVector3 inertia(0, 0, 0);
   btTransform massFrame = btTransform::getIdentity(), shift;
@@ -190,15 +227,17 @@ void BulletWorld::addBody(const World& source, const Layout&, BodyId id) {
     body->setAngularVelocity(toBullet(v.angular));
     body->setActivationState(DISABLE_DEACTIVATION);
   }
-  world_.addRigidBody(body.get(), static_cast<int>(filter.category), static_cast<int>(filter.mask));
+  world_->addRigidBody(body.get(), static_cast<int>(filter.category), static_cast<int>(filter.mask));
   slots_[id.index] = bodies_.size();
   bodies_.push_back(std::move(body));
   massFrames_.push_back(massFrame);
+  places_.push_back(place);
 }
 
 template <class Joint>
 void BulletWorld::frames(const Joint& def, btRigidBody*& a, btRigidBody*& b, btTransform& inA, btTransform& inB) {
   const auto side = [&](BodyId id, const Pose& frame, btRigidBody*& body, btTransform& in) {
+    if (id && !slots_.count(id.index)) refuse("joint", "of a particle", "must be of two bodies that are none");
     const size_t slot = id ? slots_.at(id.index) : 0;
     body = id ? bodies_[slot].get() : &btTypedConstraint::getFixedBody();
     in = id ? massFrames_[slot].inverse() * toBullet(frame) : toBullet(frame);
@@ -223,16 +262,19 @@ void BulletWorld::addFixed(const FixedJoint& def) {
 }
 
 void BulletWorld::addConstraint(std::unique_ptr<btTypedConstraint> constraint, bool collide) {
-  world_.addConstraint(constraint.get(), !collide);
+  world_->addConstraint(constraint.get(), !collide);
   constraints_.push_back(std::move(constraint));
+}
+
+BenchRecord observeBullet(const scenes::Scene& scene, const char* name, int substeps) {
+  return observePeer(scene, name, [substeps](const World& world, const Layout& layout) {
+    return std::make_unique<BulletWorld>(world, layout, substeps);
+  });
 }
 
 }  // namespace
 
-BenchRecord benchBullet(const scenes::Scene& scene) {
-  return observePeer(scene, "bullet", [](const World& world, const Layout& layout) {
-    return std::make_unique<BulletWorld>(world, layout);
-  });
-}
+BenchRecord benchBullet(const scenes::Scene& scene) { return observeBullet(scene, "bullet", 1); }
+BenchRecord benchBullet4(const scenes::Scene& scene) { return observeBullet(scene, "bullet4", 4); }
 
 }  // namespace avbd::bench

@@ -12,6 +12,7 @@ namespace {
 
 #ifndef AVBD_HAS_BULLET
 BenchRecord benchBullet(const scenes::Scene&) { refuse("benchBullet", "bullet"); }
+BenchRecord benchBullet4(const scenes::Scene&) { refuse("benchBullet", "bullet4"); }
 #endif
 #ifndef AVBD_HAS_MUJOCO
 BenchRecord benchMujoco(const scenes::Scene&) { refuse("benchMujoco", "mujoco"); }

@@ -53,6 +53,7 @@ class OdeWorld final : public scenes::Engine {
 };
 
 OdeWorld::OdeWorld(const World& source, const Layout& layout) {
+  if (!source.softBodies().empty()) throw Error("benchOde", "scene", "soft bodies", "must have none: ODE has none");
   static OdeLibrary library;
   world_ = dWorldCreate();
   space_ = dHashSpaceCreate(nullptr);

@@ -23,9 +23,10 @@ constexpr bool kOde = true;
 constexpr bool kOde = false;
 #endif
 
-const std::array<Peer, 3> kPeers{{
+const std::array<Peer, 4> kPeers{{
     {"bullet", kBullet, "boxes and hulls with margins, friction as a pyramid, 10 iterations, single precision",
      benchBullet},
+    {"bullet4", kBullet, "as bullet, with four steps a frame, as its own examples of soft bodies have", benchBullet4},
     {"mujoco", kMujoco,
      "soft contacts, trees of joints in joint coordinates, CG for more than 300 freedoms, double precision",
      benchMujoco},

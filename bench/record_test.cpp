@@ -76,6 +76,40 @@ TEST(Peers, HoldTheSameScene) {
   }
 }
 
+// Bullet alone builds soft bodies; with four steps a frame its own settings hold one on the ground.
+TEST(Peers, SoftBodiesAreBuiltOrRefused) {
+  scenes::Scene scene{
+      "soft",
+      "",
+      "",
+      [](const scenes::Settings& settings) {
+        scenes::Build build("soft", settings);
+        build.ground();
+        build.box("far", {0.2f, 0.2f, 0.2f}, {2, 0.2, 0}, 5);
+        build.soft("cube", {.mesh = makeTetBox({0.2f, 0.2f, 0.2f}, 2, 2, 2), .pose = {{0, 0.5, 0}, {}}});
+        return build.take();
+      },
+      0,
+      120,
+      {},
+      [](const scenes::Evidence& e) {
+        return std::vector<scenes::Figure>{scenes::holds("finite", e.finite), {"top", "", e.top, 0.35, 0.45, "m"}};
+      }};
+  for (const Peer& peer : peers()) {
+    if (!peer.built) continue;
+    SCOPED_TRACE(peer.name);
+    const std::string name = peer.name;
+    if (!name.starts_with("bullet")) {
+      EXPECT_THROW(peer.run(scene), Error);
+      continue;
+    }
+    const BenchRecord r = peer.run(scene);
+    EXPECT_EQ(r.bodies, 28u);
+    EXPECT_GT(r.displacementMax, 0.05);
+    if (name == "bullet4") EXPECT_EQ(r.check, "pass");
+  }
+}
+
 TEST(Peers, RefuseWhatTheyCannotBuild) {
   const scenes::Scene scene{"cones",
                             "",

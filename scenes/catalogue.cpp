@@ -134,7 +134,8 @@ std::vector<Line> collect() {
                            softLines,
                            clothLines,
                            selfLines,
-                           mixedLines})
+                           mixedLines,
+                           closedLines})
     for (Line& line : group()) list.push_back(std::move(line));
   const auto rank = [](const Line& line) {
     return std::find(kOrder.begin(), kOrder.end(), line.name) - kOrder.begin();
@@ -167,6 +168,7 @@ const std::vector<Scene>& large() {
   static const std::vector<Scene> scenes = [] {
     std::vector<Scene> list = crowdScenes();
     list.push_back(manyRagdolls());
+    append(list, slabScenes());
     return list;
   }();
   return scenes;

@@ -58,6 +58,7 @@ std::vector<Line> softLines();
 std::vector<Line> clothLines();
 std::vector<Line> selfLines();
 std::vector<Line> mixedLines();
+std::vector<Line> closedLines();
 std::vector<Line> badInputLines();
 /// What is not built yet, by name.
 std::vector<Line> skippedLines();

@@ -19,12 +19,10 @@ struct Surfaces {
   std::vector<std::array<uint32_t, 3>> faces;
   std::vector<std::array<uint32_t, 2>> edges;
 
-  explicit Surfaces(const World& world) {
-    for (const SoftId id : world.softBodies()) {
-      const auto mesh = world.mesh(id);
+  explicit Surfaces(std::span<const PlacedMesh> meshes) {
+    for (const auto& [mesh, places] : meshes) {
       const auto begin = static_cast<uint32_t>(points.size());
-      points.resize(begin + mesh->points().size());
-      world.getPoints(id, std::span<Vec3d>(points).subspan(begin));
+      points.insert(points.end(), places.begin(), places.end());
       for (auto face : mesh->surface()) {
         for (uint32_t& p : face) p += begin;
         faces.push_back(face);
@@ -42,6 +40,17 @@ struct Surfaces {
     return edges.empty() ? 1 : sum / static_cast<double>(edges.size());
   }
 };
+
+std::vector<PlacedMesh> meshesOf(const World& world) {
+  std::vector<PlacedMesh> meshes;
+  for (const SoftId id : world.softBodies()) {
+    PlacedMesh& placed = meshes.emplace_back();
+    placed.mesh = world.mesh(id);
+    placed.points.resize(placed.mesh->points().size());
+    world.getPoints(id, placed.points);
+  }
+  return meshes;
+}
 
 struct Cells {
   double size;
@@ -76,8 +85,10 @@ bool passesThrough(const Surfaces& s, const std::array<uint32_t, 2>& edge, const
 
 }  // namespace
 
-int crossings(const World& world) {
-  const Surfaces s(world);
+int crossings(const World& world) { return crossings(meshesOf(world)); }
+
+int crossings(std::span<const PlacedMesh> meshes) {
+  const Surfaces s(meshes);
   const Cells cells{2 * s.edgeLength()};
   std::vector<std::pair<std::array<long, 3>, uint32_t>> in;
   for (uint32_t f = 0; f < s.faces.size(); ++f)
@@ -118,7 +129,7 @@ double distanceTo(const Solid& solid, Vec3d point) {
 
 double deepestInside(const World& world, const std::vector<Solid>& solids) {
   constexpr int kSamples = 4;
-  const Surfaces s(world);
+  const Surfaces s(meshesOf(world));
   double deepest = 0;
   for (const auto& [a, b] : s.edges)
     for (int i = 0; i <= kSamples; ++i) {

@@ -4,10 +4,20 @@
 
 #include <avbd/world.h>
 
+#include <memory>
+#include <span>
+#include <vector>
+
 namespace avbd::scenes {
 
+/// A mesh and where its points are.
+struct PlacedMesh {
+  std::shared_ptr<const SoftMeshData> mesh;
+  std::vector<Vec3d> points;
+};
 /// Edges of soft bodies that pass through faces of soft bodies which do not hold their ends.
 int crossings(const World& world);
+int crossings(std::span<const PlacedMesh> meshes);
 
 /// Signed distance of a point from a shape: less than 0 inside.
 struct Solid {

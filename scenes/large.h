@@ -9,6 +9,8 @@ namespace avbd::scenes {
 const std::vector<Scene>& large();
 
 std::vector<Scene> crowdScenes();
+/// A soft slab of about 1000 to 100,000 tetrahedra.
+std::vector<Scene> slabScenes();
 Scene manyRagdolls();
 
 }  // namespace avbd::scenes

@@ -20,7 +20,7 @@ struct Size {
 TEST(Large, HoldsWhatItSays) {
   for (const Size& size : {Size{"pyramid50", 1275, 0}, Size{"pyramids_100", 2100, 0}, Size{"rain", 10000, 0},
                            Size{"joint_grid", 10000, 19807}, Size{"ragdolls_200", 3200, 3000},
-                           Size{"boxes_100", 100, 0}, Size{"boxes_3000", 3000, 0}}) {
+                           Size{"boxes_100", 100, 0}, Size{"boxes_3000", 3000, 0}, Size{"slab_1000", 343, 0}}) {
     SCOPED_TRACE(size.name);
     const Scene* scene = find(size.name);
     ASSERT_TRUE(scene);

@@ -1,5 +1,6 @@
 // A soft ring made of its surface, that falls on the ground and carries that surface.
 #include <algorithm>
+#include <cmath>
 
 #include "scenes/build.h"
 #include "scenes/catalogue.h"
@@ -80,10 +81,16 @@ void observe(Evidence& e, const Layout& layout, std::span<const Pose> poses, int
   e.own["carried_volume"] = now / volumeOf(fine);
 }
 
+/// A run that ended before its last step has none: no figure passes with that.
+double ownFigure(const Evidence& e, const char* name) {
+  const auto found = e.own.find(name);
+  return found == e.own.end() ? std::nan("") : found->second;
+}
+
 std::vector<Figure> check(const Evidence& e) {
-  return {holds("finite", e.finite), atMost("inverted", e.own.at("inverted"), 0, "tetrahedra"),
+  return {holds("finite", e.finite), atMost("inverted", ownFigure(e, "inverted"), 0, "tetrahedra"),
           atMost("penetration", e.penetration.max, 0.005, "m"),
-          within("carried_volume", e.own.at("carried_volume"), 1, 0.05, "of rest"),
+          within("carried_volume", ownFigure(e, "carried_volume"), 1, 0.05, "of rest"),
           holds("lies", e.top > 0.1 && e.top < 0.16)};
 }
 

@@ -12,6 +12,7 @@ from html import escape
 import svg
 
 WIDTH, HEIGHT, LEFT, TOP = 460, 380, 70, 40
+FAMILIES = {"boxes_": "boxes", "slab_": "points of slabs"}  # scenes of one kind and many sizes
 COLORS = ["#1668b8", "#c8442c", "#2d8a4e", "#8454b0", "#a67c00", "#555555"]
 
 
@@ -101,11 +102,14 @@ def draw(found):
         for x, y, r in sized:
             chart.dot(x, y, color[label(r)], r["check"] == "pass", f"{r['scene']}: {y:g} ms")
         for i, name in enumerate(engines):
-            line = sorted((x, y) for x, y, r in sized if label(r) == name and r["scene"].startswith("boxes_"))
-            power = slope(line)
-            if len(line) > 1:
-                chart.line(line, color[name])
-            chart.text(LEFT + 10, TOP + 16 + 15 * i, name + (f": boxes to the power {power:.2f}" if power else ""))
+            powers = []
+            for prefix, kind in FAMILIES.items():
+                line = sorted((x, y) for x, y, r in sized if label(r) == name and r["scene"].startswith(prefix))
+                if power := slope(line):
+                    powers.append(f"{kind} to the power {power:.2f}")
+                if len(line) > 1:
+                    chart.line(line, color[name])
+            chart.text(LEFT + 10, TOP + 16 + 15 * i, ": ".join([name] + ([", ".join(powers)] if powers else [])))
             chart.parts.append(f'<circle cx="{LEFT + 4}" cy="{TOP + 12 + 15 * i}" r="3" fill="{color[name]}"/>')
         parts += chart.parts
     if errors:

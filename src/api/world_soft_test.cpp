@@ -46,6 +46,40 @@ TEST_F(OnTheGround, TheGroundCarriesItsWeight) {
   for (const BodyId p : world.particles(soft)) EXPECT_GT(world.pose(p).position.y, 0.01 - 0.002);
 }
 
+TEST_F(OnTheGround, CarriesABoxByItsPointsAndFaces) {
+  const BodyId box = world.create(BodyDef{.position = {0, 0.72, 0}, .shape = Box{0.2f, 0.1f, 0.2f}, .mass = 20});
+  run(world, 240);
+  float byPoints = 0, byFaces = 0;
+  for (const Contact& contact : world.contacts()) {
+    if (contact.bodyA != box && contact.bodyB != box) continue;
+    const bool above = contact.bodyB == box;
+    EXPECT_EQ(above ? contact.softA : contact.softB, soft);
+    EXPECT_EQ(above ? contact.softB : contact.softA, SoftId{});
+    EXPECT_EQ(above ? contact.shapeB : contact.shapeA, world.shapes(box)[0]);
+    EXPECT_GT(contact.normal.y * (above ? 1.0f : -1.0f), 0.5f);
+    EXPECT_NEAR(contact.points[0].position.y, world.pose(box).position.y - 0.11, 0.03);
+    float& force = (above ? contact.elementA : contact.elementB) == kNoElement ? byPoints : byFaces;
+    for (int i = 0; i < contact.pointCount; ++i) force += contact.points[static_cast<size_t>(i)].normalForce;
+  }
+  EXPECT_GT(byFaces, 10);
+  EXPECT_NEAR(byPoints + byFaces, 20 * 9.81, 0.01 * 20 * 9.81);
+}
+
+TEST_F(OnTheGround, CarriesAnotherByItsFaces) {
+  const auto small = makeTetBox({0.15f, 0.1f, 0.15f}, 3, 2, 3);
+  const SoftId upper =
+      world.create(SoftDef{.mesh = small, .pose = {{0, 0.68, 0}, {}}, .material = {.youngsModulus = 1e6f}});
+  run(world, 180);
+  float force = 0;
+  for (const Contact& contact : world.contacts()) {
+    if (!contact.softA || !contact.softB || contact.softA == contact.softB) continue;
+    const float sign = contact.softB == upper ? 1.0f : -1.0f;
+    for (int i = 0; i < contact.pointCount; ++i)
+      force += contact.points[static_cast<size_t>(i)].normalForce * contact.normal.y * sign;
+  }
+  EXPECT_NEAR(force, 18 * 9.81, 0.02 * 18 * 9.81);
+}
+
 TEST_F(OnTheGround, FallsAsleepAndWakesAsAWhole) {
   run(world, 240);
   const std::vector<BodyId> particles = world.particles(soft);
