@@ -46,26 +46,36 @@ constexpr int kMostAdvances = 512;
 
 float lengthOf(Vec3 v) { return rows::sqrt(dot(v, v)); }
 
-float longest(Vec3 a, Vec3 b, Vec3 mean) { return std::max(lengthOf(a - mean), lengthOf(b - mean)); }
+/// Of nodes of which the first `split` are parted from the others by `off`.
+Approach approachOf(const FourPoints& p, int split, Vec3 off) {
+  Approach now;
+  now.distance = lengthOf(off);
+  if (!(now.distance > 0)) return now;
+  float first = 1e30f, second = -1e30f;
+  for (int i = 0; i < 4; ++i) {
+    const float along = dot(off, p.way[i]) / now.distance;
+    if (i < split)
+      first = std::min(first, along);
+    else
+      second = std::max(second, along);
+  }
+  now.speed = second - first;
+  return now;
+}
 
 }  // namespace
 
-float pointMeetsFace(const FourPoints& p, float least) {
-  const Vec3 mean = (p.way[0] + p.way[1] + p.way[2] + p.way[3]) * 0.25f;
-  const float fastest =
-      lengthOf(p.way[0] - mean) + std::max(longest(p.way[1], p.way[2], mean), lengthOf(p.way[3] - mean));
-  return advanceUntil(least, fastest, kMostAdvances, [&](float time) {
+float pointMeetsFace(const FourPoints& p, Kept kept) {
+  return advanceUntil(kept, kMostAdvances, [&](float time) {
     const Vec3 at = p.when(0, time);
-    return lengthOf(at - nearestOnFace(at, p.when(1, time), p.when(2, time), p.when(3, time)).point);
+    return approachOf(p, 1, at - nearestOnFace(at, p.when(1, time), p.when(2, time), p.when(3, time)).point);
   });
 }
 
-float edgesMeet(const FourPoints& p, float least) {
-  const Vec3 mean = (p.way[0] + p.way[1] + p.way[2] + p.way[3]) * 0.25f;
-  const float fastest = longest(p.way[0], p.way[1], mean) + longest(p.way[2], p.way[3], mean);
-  return advanceUntil(least, fastest, kMostAdvances, [&](float time) {
+float edgesMeet(const FourPoints& p, Kept kept) {
+  return advanceUntil(kept, kMostAdvances, [&](float time) {
     const NearestOnEdges near = nearestOnEdges(p.when(0, time), p.when(1, time), p.when(2, time), p.when(3, time));
-    return lengthOf(near.first - near.second);
+    return approachOf(p, 2, near.first - near.second);
   });
 }
 

@@ -24,25 +24,39 @@ struct FourPoints {
   Vec3 when(int i, float time) const { return at[i] + way[i] * time; }
 };
 
-/// Conservative advancement: the first time 0 .. 1, within `advances` steps, at which distanceAt(time) is down to
-/// `least`, if it shrinks by no more than `fastest` in the whole time; where the steps end, that to which they led.
-/// More than 1: never.
-template <class Distance>
-float advanceUntil(float least, float fastest, int advances, Distance&& distanceAt) {
+/// What two things must keep: they meet when they are nearer than both together.
+struct Kept {
+  float least = 0;      ///< [m]
+  float tolerance = 0;  ///< [m] > 0
+  float aim = 0;        ///< [m] at which they surely do not meet: what keeps them apart leaves so much
+};
+
+/// How near two things are, and how fast they may come nearer along the direction in which they are parted now: their
+/// distance is never less than what parts them along any direction.
+struct Approach {
+  float distance = 0;  ///< [m]
+  float speed = 0;     ///< [m] in the whole time, at most
+};
+
+/// Conservative advancement: the first time 0 .. 1, within `advances` steps, at which approachAt(time) is down to
+/// `kept`; where the steps end, that to which they led. More than 1: never.
+template <class ApproachAt>
+float advanceUntil(Kept kept, int advances, ApproachAt&& approachAt) {
   constexpr float kAdvance = 0.9f;  // of the distance, gone at once
-  if (!(fastest > 0)) return 2;
   float time = 0;
   for (int i = 0; i < advances; ++i) {
-    const float left = distanceAt(time) - least;
-    if (left <= 0.1f * least) return time;
-    time += kAdvance * left / fastest;
+    const Approach now = approachAt(time);
+    const float left = now.distance - kept.least;
+    if (left <= kept.tolerance) return time;
+    if (!(now.speed > 0)) return 2;
+    time += kAdvance * left / now.speed;
     if (time > 1) return 2;
   }
   return time;
 }
 
-/// The first time 0 .. 1 at which two features are as near as `least`; more than 1: never. They start farther apart.
-float pointMeetsFace(const FourPoints& points, float least);
-float edgesMeet(const FourPoints& points, float least);
+/// The first time 0 .. 1 at which two features meet; more than 1: never.
+float pointMeetsFace(const FourPoints& points, Kept kept);
+float edgesMeet(const FourPoints& points, Kept kept);
 
 }  // namespace avbd

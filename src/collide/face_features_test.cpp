@@ -60,7 +60,7 @@ void expectFirst(std::mt19937& generator, Meets&& meets, Distance&& distance) {
     }
     const float least = 0.05f, start = distance(p, 0.0f);
     if (start <= 1.2f * least) continue;
-    const float time = meets(p, least);
+    const float time = meets(p, Kept{least, 0.1f * least});
     for (float t = 0; t < std::min(time, 1.0f); t += 1.0f / 256) EXPECT_GT(distance(p, t), least * 0.99f) << trial;
     if (time <= 1) {
       ++met;
@@ -71,28 +71,34 @@ void expectFirst(std::mt19937& generator, Meets&& meets, Distance&& distance) {
 }
 
 TEST_F(FaceFeatures, AFaceIsMetInTime) {
-  expectFirst(
-      generator, [](const FourPoints& p, float least) { return pointMeetsFace(p, least); },
-      [](const FourPoints& p, float t) {
-        return length(p.when(0, t) - nearestOnFace(p.when(0, t), p.when(1, t), p.when(2, t), p.when(3, t)).point);
-      });
+  expectFirst(generator, pointMeetsFace, [](const FourPoints& p, float t) {
+    return length(p.when(0, t) - nearestOnFace(p.when(0, t), p.when(1, t), p.when(2, t), p.when(3, t)).point);
+  });
 }
 
 TEST_F(FaceFeatures, AnEdgeIsMetInTime) {
-  expectFirst(
-      generator, [](const FourPoints& p, float least) { return edgesMeet(p, least); },
-      [](const FourPoints& p, float t) {
-        const NearestOnEdges n = nearestOnEdges(p.when(0, t), p.when(1, t), p.when(2, t), p.when(3, t));
-        return length(n.first - n.second);
-      });
+  expectFirst(generator, edgesMeet, [](const FourPoints& p, float t) {
+    const NearestOnEdges n = nearestOnEdges(p.when(0, t), p.when(1, t), p.when(2, t), p.when(3, t));
+    return length(n.first - n.second);
+  });
+}
+
+TEST_F(FaceFeatures, WhatSlidesPastIsSeenToInFewAdvances) {
+  int advances = 0;
+  const auto above = [&](float time) {
+    ++advances;
+    return Approach{0.011f + 0.0f * time, 0.002f};  // along a face, at a little more than what is kept
+  };
+  EXPECT_EQ(advanceUntil({0.01f, 0.0005f}, 100, above), 2);
+  EXPECT_LT(advances, 4);
 }
 
 TEST_F(FaceFeatures, WhatGoesTogetherNeverMeets) {
   FourPoints p{{{0, 0.01f, 0}, {-1, 0, -1}, {1, 0, -1}, {0, 0, 1}}, {}};
   for (Vec3& way : p.way) way = {0, -50, 7};
-  EXPECT_GT(pointMeetsFace(p, 0.005f), 1);
+  EXPECT_GT(pointMeetsFace(p, {0.005f, 0.0005f}), 1);
   p.way[0].y -= 0.1f;
-  EXPECT_NEAR(pointMeetsFace(p, 0.005f), 0.05f, 0.006f);
+  EXPECT_NEAR(pointMeetsFace(p, {0.005f, 0.0005f}), 0.05f, 0.006f);
 }
 
 }  // namespace

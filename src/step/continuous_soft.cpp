@@ -2,11 +2,11 @@
 //
 // After the solve the ways of all points are known. Two features whose ends are still parted by the plane that parts
 // them at the start have not met on straight ways; of others conservative advancement tells when they come too near.
-// Points that take part then go only as far as keeps them apart, in the end nowhere, where they start apart. Velocities
-// stay, so the next step solves the contact.
+// Impacts change the ways (soft_impacts.h), and what goes another way is searched again, until nothing meets.
 #include <algorithm>
 
 #include "avbd/rows/math.h"
+#include "step/soft_impacts.h"
 #include "step/soft_touches.h"
 #include "world/soft.h"
 #include "world/soft_touch.h"
@@ -18,18 +18,36 @@ namespace {
 constexpr float kKept = 0.2f, kKeptNear = 0.5f;  ///< of the thickness, and of the distance at the start
 /// Below this distance [of the thickness] a larger share of it is kept: what is pressed together step by step would
 /// else end in one place.
-constexpr float kClose = 0.05f, kKeptClose = 0.95f;
-constexpr float kUnseen = 1e-5f;  ///< of the thickness: nearer at the start are none that were kept apart
+constexpr float kClose = 0.05f, kKeptClose = 0.95f, kToleranceClose = 0.02f;
+constexpr float kAimClose = 1.02f;  ///< of the distance: what keeps them apart leads them out
+constexpr float kTolerance = 0.1f;  ///< of what is kept
+constexpr float kAim = 1.5f;        ///< tolerances that are left besides
+constexpr float kUnseen = 1e-5f;    ///< of the thickness: nearer at the start are none that were kept apart
+constexpr float kDeep = 0.5f;       ///< of the thickness or of half the solid's: how far faces may be in solids
 constexpr float kFar = 1e18f;
-constexpr int kFewPasses = 6;    ///< after these what still meets stays where it started
-constexpr int kManyPasses = 16;  ///< after these all points of bodies that take part
+constexpr int kFewPasses = 8;  ///< after these a shape that comes to a face that stays is left to the rows
 constexpr int kMostPasses = 60;
 
 }  // namespace
 
-float keptDistance(float thickness, float distance) {
-  const float share = distance < kClose * thickness ? kKeptClose : kKeptNear;
-  return std::min(kKept * thickness, share * distance);
+Kept keptOf(float thickness, float distance) {
+  if (distance < kClose * thickness) return {kKeptClose * distance, kToleranceClose * distance, kAimClose * distance};
+  const float least = std::min(kKept * thickness, kKeptNear * distance), tolerance = kTolerance * least;
+  return {least, tolerance, least + kAim * tolerance};
+}
+
+Kept keptOf(const WorldData& world, const NearFeatures& near, float distance) {
+  return keptOf(
+      near.within() ? thicknessOf(world, near) : world.softs[near.first].radius + world.softs[near.second].radius,
+      distance);
+}
+
+/// A solid may overlap a face somewhat, of which rows lead it out; a triangle has no inside.
+Kept keptOf(const ShapePiece& piece, float thickness, float distance) {
+  if (piece.thin == 0) return keptOf(thickness, distance);
+  const float deep = kDeep * std::min(thickness, piece.thin), tolerance = kTolerance * deep;
+  const float least = std::min(-deep, distance - 2 * tolerance);
+  return {least, tolerance, least + kAim * tolerance};
 }
 
 bool mayMeet(const WorldData& world, const NearFeatures& near, const FeatureContact& contact) {
@@ -46,10 +64,9 @@ float meetingTime(const WorldData& world, const SoftSurfaces& surfaces, const Ne
   const float both = world.softs[near.first].radius + world.softs[near.second].radius;
   const Vec3 direction = contact.off * (1 / contact.distance);
   const float end = leastApart(near.kind, [&](int i) { return dot(direction, near.points.when(i, 1)); });
-  if (end >= keptDistance(both, contact.distance)) return 2;
-  const float kept =
-      near.within() ? keptDistance(thicknessOf(world, near), contact.distance) : keptDistance(both, contact.distance);
-  if (end >= kept) return 2;
+  if (end >= keptOf(both, contact.distance).least) return 2;
+  const Kept kept = keptOf(world, near, contact.distance);
+  if (end >= kept.least) return 2;
   return point ? pointMeetsFace(near.points, kept) : edgesMeet(near.points, kept);
 }
 
@@ -83,14 +100,14 @@ float meetingTime(const WorldData& world, const StepData& step, uint32_t soft, c
   const float thickness = world.softs[soft].radius;
   const Nearest near =
       nearestToFace(piece, piece.pose, {moving.at[0], moving.at[1], moving.at[2]}, fastest + kKept * thickness);
-  // What overlaps at the start is on its way out.
-  if (near.apart || near.distance < kUnseen * thickness) return 2;
+  // What passes through a triangle at the start is on its way out.
+  if (near.apart || (piece.thin == 0 && near.distance < kUnseen * thickness)) return 2;
   if (piece.front != Vec3{} && dot(piece.front, near.normal) < 0) return 2;
-  const float kept = keptDistance(thickness, near.distance);
+  const Kept kept = keptOf(piece, thickness, near.distance);
   if (length(piece.turn) == 0) {
     float least = 1e30f;
     for (int i = 0; i < 3; ++i) least = std::min(least, dot(near.normal, moving.way[i] - piece.linear));
-    if (near.distance + least >= kept) return 2;
+    if (near.distance + least >= kept.least) return 2;
   }
   return pieceMeetsFace(piece, moving, kept);
 }
@@ -99,15 +116,18 @@ namespace {
 
 class Stops {
  public:
-  Stops(WorldData& world, StepData& step) : world_(world), step_(step), s_(step.softs) {}
+  Stops(WorldData& world, StepData& step) : world_(world), step_(step), s_(step.softs), impacts_(world, step) {}
 
   void run() {
     checkFirst();
-    for (int i = 0; i < kMostPasses && shorten(i); ++i) checkAgain();
-    if (s_.share.empty()) return;
-    for (const uint32_t slot : step_.order)
-      if (s_.share[slot] < 1) end(slot);
-    s_.share.clear();
+    for (pass_ = 0; pass_ < kMostPasses && impacts_.any(); ++pass_) {
+      impacts_.resolve(pass_, changed_);
+      takeWays(world_, step_, changed_);
+      checkNear();
+      for (size_t i = 0; i < changed_.size(); ++i)
+        if (i == 0 || changed_[i][0] != changed_[i - 1][0]) checkShapes(changed_[i][0]);
+    }
+    impacts_.end();
   }
 
  private:
@@ -121,35 +141,30 @@ class Stops {
       for (const NearContact& near : s_.contacts)
         if (comesNear(near)) check(FeaturePairs(world_, s_, near.names.first, near.names.second).features(near.names));
     }
-    checkShapes();
-  }
-
-  void checkAgain() {
-    takeShares(world_, step_, changed_);
-    checkNear();
-    checkShapes();
+    world_.softIds.forEach([&](uint32_t slot) { checkShapes(slot); });
   }
 
   void checkNear() {
     forEachNear(world_, s_, [&](const NearFeatures& near) { check(near); });
   }
-  void check(const NearFeatures& near) { meet(meetingTime(world_, s_, near), near.touch()); }
-  void checkShapes() {
-    world_.softIds.forEach([&](uint32_t slot) {
-      forEachNearShape(world_, step_, slot, true, [&](const ShapePiece& piece, uint32_t face) {
-        const float time = meetingTime(world_, step_, slot, piece, face);
-        if (time <= 1 && !comes(slot, piece, face)) meet(time, piece.namesWith(slot, face).touch());
-      });
+  void check(const NearFeatures& near) {
+    const float time = meetingTime(world_, s_, near);
+    if (time <= 1) impacts_.meet(near, time);
+  }
+  void checkShapes(uint32_t slot) {
+    forEachNearShape(world_, step_, slot, true, [&](const ShapePiece& piece, uint32_t face) {
+      const float time = meetingTime(world_, step_, slot, piece, face);
+      if (time <= 1 && !(pass_ >= kFewPasses && comes(slot, piece, face))) impacts_.meet(piece, slot, face, time);
     });
   }
 
-  /// Whether the shape comes to the face even if that stays: then a stop would leave the face in its way.
+  /// Whether the shape comes to the face even if that stays.
   bool comes(uint32_t slot, const ShapePiece& piece, uint32_t face) const {
     if (piece.linear == Vec3{} && piece.turn == Vec3{}) return false;
     MovingFace still = movingFace(world_, s_, slot, face);
     for (Vec3& way : still.way) way = {};
     const Nearest near = nearestToFace(piece, piece.pose, still.at, kFar);
-    return pieceMeetsFace(piece, still, keptDistance(world_.softs[slot].radius, near.distance)) <= 1;
+    return pieceMeetsFace(piece, still, keptOf(piece, world_.softs[slot].radius, near.distance)) <= 1;
   }
 
   /// All points of the second side are at least `distance` behind those of the first, along the direction.
@@ -170,74 +185,15 @@ class Stops {
       forth = std::max({along(b, face[0]), along(b, face[1]), along(b, face[2])});
     }
     const float left = near.distance + back - forth + dot(near.direction, a.drift - b.drift);
-    return left < keptDistance(first.radius + second.radius, near.distance);
-  }
-
-  void meet(float time, const SoftTouch& touch) {
-    if (time > 1 || !mayTouchSoft(world_, touch)) return;
-    ++world_.report.impacts;
-    for (const uint32_t body : nodesOf(world_, touch)) {
-      // A body that meets a surface goes on: what it touches besides would not know of its stop.
-      if (!isParticle(world_, body) || world_.bodies[body].asleep || !(s_.shareOf(body) > 0)) continue;
-      met_.push_back({body, time});
-    }
-  }
-
-  /// Shortens the ways of what met. Whether any became shorter.
-  bool shorten(int pass) {
-    if (met_.empty()) return false;
-    if (s_.share.empty()) begin();
-    std::sort(met_.begin(), met_.end());
-    changed_.clear();
-    for (size_t i = 0; i < met_.size(); ++i) {
-      const auto& [body, time] = met_[i];
-      if (i > 0 && met_[i - 1].first == body) continue;
-      const uint32_t soft = world_.bodies[body].soft;
-      if (pass >= kManyPasses)
-        stay(soft);
-      else
-        change(soft, body, pass >= kFewPasses ? 0.0f : time);
-    }
-    met_.clear();
-    return true;
-  }
-
-  void begin() {
-    s_.share.assign(world_.bodies.size(), 1);
-    pointOf_.resize(world_.bodies.size());
-    world_.softIds.forEach([&](uint32_t slot) {
-      const std::vector<uint32_t>& all = world_.softs[slot].bodies;
-      for (uint32_t i = 0; i < all.size(); ++i) pointOf_[all[i]] = i;
-    });
-  }
-
-  void change(uint32_t soft, uint32_t body, float factor) {
-    s_.share[body] *= factor;
-    changed_.push_back({soft, pointOf_[body]});
-  }
-
-  void stay(uint32_t soft) {
-    for (const uint32_t body : world_.softs[soft].bodies)
-      if (s_.share[body] > 0) change(soft, body, 0);
-  }
-
-  /// The pose where it stays.
-  void end(uint32_t slot) {
-    const BodyData& body = world_.bodies[slot];
-    const uint32_t index = step_.endOf[slot];
-    StepData::EndState& end = step_.end[index];
-    float* d = step_.d.data() + size_t(8) * step_.rowOfEnd[index];
-    const float share = s_.share[slot];
-    end.position = body.position + toFloat(end.position - body.position) * share;
-    for (int i = 0; i < 3; ++i) d[i] *= share;
+    return left < keptOf(first.radius + second.radius, near.distance).least;
   }
 
   WorldData& world_;
   StepData& step_;
   SoftSurfaces& s_;
-  std::vector<uint32_t> pointOf_;                 ///< by body slot: its point
-  std::vector<std::pair<uint32_t, float>> met_;   ///< bodies that meet, and when
-  std::vector<std::array<uint32_t, 2>> changed_;  ///< soft bodies and points whose ways became shorter
+  SoftImpacts impacts_;
+  int pass_ = 0;
+  std::vector<std::array<uint32_t, 2>> changed_;  ///< soft bodies and points that go other ways than before
 };
 
 }  // namespace

@@ -70,9 +70,16 @@ class NearSearch {
   void meetShape(uint32_t slot, FunctionRef<void(const ShapePiece&, uint32_t)> f) {
     const ShapeData& data = world_.shapes[slot];
     const BodyData& body = world_.bodies[data.body];
-    ShapePiece piece{
-        slot, 0,  data.geom,  nearPose(body, data, place_.origin), toFloat(body.position - place_.origin), {},
-        {},   {}, body.radius};
+    ShapePiece piece{slot,
+                     0,
+                     data.geom,
+                     nearPose(body, data, place_.origin),
+                     toFloat(body.position - place_.origin),
+                     {},
+                     {},
+                     {},
+                     body.radius,
+                     body.minExtent};
     setWay(body, data.body, piece);
     const bool surface = isSurface(data.geom.type);
     const float margin = 0.5f * touchMargin(world_) + std::min(length(piece.turn), 2.0f) * body.radius;
@@ -92,7 +99,7 @@ class NearSearch {
     const Aabb box = grown(swept(place_.faces[face], place_.drift - whole.linear), margin);
     forEachBareTriangle(whole.geom, boxIn(whole.pose, box), [&](const SurfaceTriangle& triangle) {
       ShapePiece piece = whole;
-      piece.part = triangle.element;
+      piece.part = triangle.element, piece.thin = 0;
       piece.geom = {ShapeType::Triangle, 0, {}};
       piece.geom.data = triangle.v;
       if (!triangle.doubleSided) piece.front = rotate(whole.pose.q, triangle.normal);
@@ -137,14 +144,17 @@ float fastestApproach(const ShapePiece& piece, const MovingFace& face) {
   return fastest + length(piece.turn) * piece.reach;
 }
 
-float pieceMeetsFace(const ShapePiece& piece, const MovingFace& face, float least) {
-  constexpr int kMostAdvances = 64;  ///< each asks a search for the nearest points of two convex shapes
-  const float fastest = fastestApproach(piece, face);
-  return advanceUntil(least, fastest, kMostAdvances, [&](float time) {
+float pieceMeetsFace(const ShapePiece& piece, const MovingFace& face, Kept kept) {
+  constexpr int kMostAdvances = 256;  ///< each asks a search for the nearest points of two convex shapes
+  const float fastest = fastestApproach(piece, face), far = kept.least + kept.tolerance + fastest;
+  return advanceUntil(kept, kMostAdvances, [&](float time) -> Approach {
     const Vec3 v[3] = {face.when(0, time), face.when(1, time), face.when(2, time)};
-    const Nearest near = nearestToFace(piece, piece.when(time), v, least + fastest);
-    // Farther than all of the way.
-    return near.apart && near.distance >= least + fastest ? least + 2 * fastest : near.distance;
+    const Nearest near = nearestToFace(piece, piece.when(time), v, far);
+    if (near.apart) return {near.distance >= far ? far + fastest : near.distance, fastest};
+    float speed = -1e30f;
+    for (const Vec3& way : face.way) speed = std::max(speed, dot(near.normal, piece.linear - way));
+    // Whatever of the body is foremost as it turns.
+    return {near.distance, speed + length(cross(near.normal, piece.turn)) * piece.reach};
   });
 }
 

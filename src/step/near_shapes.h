@@ -3,6 +3,7 @@
 
 #include "base/function_ref.h"
 #include "collide/convex.h"
+#include "collide/face_features.h"
 #include "step/step_data.h"
 
 namespace avbd {
@@ -17,6 +18,7 @@ struct ShapePiece {
   Vec3 linear, turn;  ///< [m, rad] its body's way in the step
   Vec3 front;         ///< of a triangle with one side; else 0
   float reach = 0;    ///< [m] of the body about its centre
+  float thin = 0;     ///< [m] half thickness of the body; 0 of a triangle
 
   NearPose when(float time) const;
   /// As a touch with a face of a soft body is named.
@@ -39,7 +41,7 @@ struct MovingFace {
 };
 /// [m] by which the two come nearer over the step, at most.
 float fastestApproach(const ShapePiece& piece, const MovingFace& face);
-/// The first time 0 .. 1 at which the two are as near as `least`; more than 1: never.
-float pieceMeetsFace(const ShapePiece& piece, const MovingFace& face, float least);
+/// The first time 0 .. 1 at which the two meet; more than 1: never.
+float pieceMeetsFace(const ShapePiece& piece, const MovingFace& face, Kept kept);
 
 }  // namespace avbd

@@ -13,23 +13,11 @@ namespace {
 
 constexpr float kCorner = 0.999f;  ///< weight of a corner that the place is at: its point has touches of its own
 
-/// The touch at a time, seen from the start of the step.
-FoundTouch touchThen(const WorldData& world, const StepData& step, uint32_t slot, const ShapePiece& piece,
-                     uint32_t face, float time) {
-  const MovingFace moving = movingFace(world, step.softs, slot, face);
-  const Vec3 v[3] = {moving.when(0, time), moving.when(1, time), moving.when(2, time)};
-  const Nearest near = nearestToFace(piece, piece.when(time), v, 1e30f);
-  const Vec3 w = nearestOnFace(near.pointB, v[0], v[1], v[2]).weights;
-  const Vec3 arm = rotate(quatFromVector(piece.turn * -time), near.pointA - piece.center - piece.linear * time);
-  const Vec3 point = piece.center + arm, onFace = moving.at[0] * w.x + moving.at[1] * w.y + moving.at[2] * w.z;
-  return shapeTouch(world, {slot, face, w, -near.normal, dot(-near.normal, point - onFace)}, piece, point);
-}
-
 /// What is far away for the size of the faces has rows only if it meets, and as it is then.
 void meetLater(const WorldData& world, StepData& step, uint32_t slot, const ShapePiece& piece, uint32_t face) {
   const float time = meetingTime(world, step, slot, piece, face);
   if (time > 1) return;
-  const FoundTouch found = touchThen(world, step, slot, piece, face, time);
+  const FoundTouch found = touchAt(world, step, slot, piece, face, time);
   if (mayTouchSoft(world, found.touch)) addTouch(world, step, found);
 }
 
@@ -67,6 +55,17 @@ FoundTouch shapeTouch(const WorldData& world, const OnFace& on, const ShapePiece
   found.touch.place = toBody(world.bodies[world.shapes[piece.shape].body], found.arm);
   found.separation = on.distance - world.softs[on.soft].radius;
   return found;
+}
+
+FoundTouch touchAt(const WorldData& world, const StepData& step, uint32_t slot, const ShapePiece& piece, uint32_t face,
+                   float time) {
+  const MovingFace moving = movingFace(world, step.softs, slot, face);
+  const Vec3 v[3] = {moving.when(0, time), moving.when(1, time), moving.when(2, time)};
+  const Nearest near = nearestToFace(piece, piece.when(time), v, 1e30f);
+  const Vec3 w = nearestOnFace(near.pointB, v[0], v[1], v[2]).weights;
+  const Vec3 arm = rotate(quatFromVector(piece.turn * -time), near.pointA - piece.center - piece.linear * time);
+  const Vec3 point = piece.center + arm, onFace = moving.at[0] * w.x + moving.at[1] * w.y + moving.at[2] * w.z;
+  return shapeTouch(world, {slot, face, w, -near.normal, dot(-near.normal, point - onFace)}, piece, point);
 }
 
 void findShapeTouches(const WorldData& world, StepData& step) {

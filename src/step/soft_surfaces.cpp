@@ -138,18 +138,19 @@ constexpr float kUsed = 0.75f;  ///< of the radius: how far beyond what is thoug
 
 Vec3 solvedWay(const WorldData& world, const StepData& step, uint32_t body) {
   if (world.bodies[body].asleep) return {};
-  return toFloat(step.end[step.endOf[body]].position - world.bodies[body].position) * step.softs.shareOf(body);
+  if (!step.softs.ways.empty()) return step.softs.ways[body];
+  return toFloat(step.end[step.endOf[body]].position - world.bodies[body].position);
 }
 
 }  // namespace
 
 void placeSolvedSofts(const WorldData& world, StepData& step) {
-  step.softs.share.clear();
+  step.softs.ways.clear();
   placeAll(world, step, [&](uint32_t body) { return solvedWay(world, step, body); });
 }
 
 bool takeSolvedWays(const WorldData& world, StepData& step) {
-  step.softs.share.clear();
+  step.softs.ways.clear();
   bool within = true;
   world.softIds.forEach([&](uint32_t slot) {
     SoftPlace& place = step.softs.places[slot];
@@ -188,7 +189,7 @@ void nearFace(const WorldData& world, SoftSurfaces& s, uint32_t slot, uint32_t f
 
 }  // namespace
 
-void takeShares(const WorldData& world, StepData& step, const std::vector<std::array<uint32_t, 2>>& points) {
+void takeWays(const WorldData& world, StepData& step, const std::vector<std::array<uint32_t, 2>>& points) {
   SoftSurfaces& s = step.softs;
   std::vector<std::vector<uint8_t>> touched(world.softs.size());
   for (const auto& [slot, point] : points) {

@@ -82,8 +82,7 @@ struct SoftSurfaces {
     uint32_t slot;
   };
   std::vector<Ends> ends;
-  std::vector<float> share;  ///< by body slot: of its solved way that it goes; empty: all go theirs
-  float shareOf(uint32_t body) const { return share.empty() ? 1 : share[body]; }
+  std::vector<Vec3> ways;  ///< [m] by body slot: of points after impacts; empty: all go where the solve leads them
   std::vector<std::array<uint32_t, 2>> pairs;  ///< slots of bodies whose bounds overlap, the lower first, one may sleep
 };
 
@@ -105,9 +104,9 @@ void placeSolvedSofts(const WorldData& world, StepData& step);
 bool takeSolvedWays(const WorldData& world, StepData& step);
 /// Fills `pairs` and `near`.
 void findNearFaces(const WorldData& world, SoftSurfaces& surfaces);
-/// Points take shares of their solved ways (SoftSurfaces::share), and bounds hold the new ways too; `near` becomes what
-/// faces with such a point (by slot and point) come near.
-void takeShares(const WorldData& world, StepData& step, const std::vector<std::array<uint32_t, 2>>& points);
+/// Points take other ways (SoftSurfaces::ways), and bounds hold those too; `near` becomes what faces with such a point
+/// (by slot and point) come near.
+void takeWays(const WorldData& world, StepData& step, const std::vector<std::array<uint32_t, 2>>& points);
 /// [m] within which touches are looked for, beyond the thickness and the ways.
 float touchMargin(const WorldData& world);
 

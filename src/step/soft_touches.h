@@ -28,14 +28,20 @@ struct FeatureContact {
 FeatureContact featureContact(const WorldData& world, const SoftSurfaces& surfaces, const NearFeatures& near);
 /// Whether two features were apart, and would not pass through each other on the way out of a solid.
 bool mayMeet(const WorldData& world, const NearFeatures& near, const FeatureContact& contact);
-/// [m] as near as features may come in a step: a share of their thickness, or less if they start nearer than that.
-float keptDistance(float thickness, float distance);
+/// As near as features of a thickness may come in a step that start at a distance: a share of either.
+Kept keptOf(float thickness, float distance);
+Kept keptOf(const WorldData& world, const NearFeatures& near, float distance);
+/// As deep as a face may come into a shape.
+Kept keptOf(const ShapePiece& piece, float thickness, float distance);
 /// When two features come nearer than that on their ways; more than 1: never.
 float meetingTime(const WorldData& world, const SoftSurfaces& surfaces, const NearFeatures& near);
 /// The rows of two features as they are at a time.
 FoundTouch touchAt(const WorldData& world, const NearFeatures& near, float time);
 /// The same of a shape and a face of a body.
 float meetingTime(const WorldData& world, const StepData& step, uint32_t soft, const ShapePiece& piece, uint32_t face);
+/// The touch of a shape and a face as they are at a time, seen from the start of the step.
+FoundTouch touchAt(const WorldData& world, const StepData& step, uint32_t soft, const ShapePiece& piece, uint32_t face,
+                   float time);
 /// The face with its ways, the drift too.
 MovingFace movingFace(const WorldData& world, const SoftSurfaces& surfaces, uint32_t soft, uint32_t face);
 /// A place on a face.
