@@ -56,11 +56,11 @@ SurfaceAtRest::SurfaceAtRest(std::span<const Vec3> points, const FaceTree& tree,
 }
 
 bool SurfaceAtRest::nodesAreBeside(uint32_t a, uint32_t b, float size) const {
-  const Aabb centres = merge(ranges[a].centres, ranges[b].centres);
-  const Vec3 off = centres.upper - centres.lower;
+  const Aabb both = merge(ranges[a].centres, ranges[b].centres);
+  const Vec3 off = both.upper - both.lower;
   if (!(dot(off, off) < size * size)) return false;
-  const Aabb normals = merge(ranges[a].normals, ranges[b].normals);
-  const Vec3 apart = normals.upper - normals.lower;
+  const Aabb directions = merge(ranges[a].normals, ranges[b].normals);
+  const Vec3 apart = directions.upper - directions.lower;
   return dot(apart, apart) < 2 - 2 * kAlike;  // of unit vectors the square of what parts them
 }
 
