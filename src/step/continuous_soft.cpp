@@ -121,11 +121,11 @@ class Stops {
   void run() {
     checkFirst();
     for (pass_ = 0; pass_ < kMostPasses && impacts_.any(); ++pass_) {
-      impacts_.resolve(pass_, changed_);
-      takeWays(world_, step_, changed_);
+      const auto& points = impacts_.resolve(pass_);
+      takeWays(world_, step_, points);
       checkNear();
-      for (size_t i = 0; i < changed_.size(); ++i)
-        if (i == 0 || changed_[i][0] != changed_[i - 1][0]) checkShapes(changed_[i][0]);
+      for (size_t i = 0; i < points.size(); ++i)
+        if (i == 0 || points[i][0] != points[i - 1][0]) checkShapes(points[i][0]);
     }
     impacts_.end();
   }
@@ -193,7 +193,6 @@ class Stops {
   SoftSurfaces& s_;
   SoftImpacts impacts_;
   int pass_ = 0;
-  std::vector<std::array<uint32_t, 2>> changed_;  ///< soft bodies and points that go other ways than before
 };
 
 }  // namespace

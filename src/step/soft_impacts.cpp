@@ -22,6 +22,11 @@ constexpr float kFar = 1e18f;
 
 }  // namespace
 
+SoftImpacts::SoftImpacts(WorldData& world, StepData& step)
+    : world_(world), step_(step), s_(step.softs), d_(step.softs.impacts) {
+  d_.impacts.clear(), d_.met.clear(), d_.changed.clear(), d_.stopped.clear();
+}
+
 Vec3 SoftImpacts::solvedWay(uint32_t body) const {
   return toFloat(step_.end[step_.endOf[body]].position - world_.bodies[body].position);
 }
@@ -76,8 +81,8 @@ SoftImpacts::Impact SoftImpacts::impactOf(const FeatureNames& names, const Found
 
 void SoftImpacts::add(const Impact& impact) {
   ++world_.report.impacts;
-  met_.push_back(impacts_.size());
-  impacts_.push_back(impact);
+  d_.met.push_back(d_.impacts.size());
+  d_.impacts.push_back(impact);
 }
 
 /// [1/kg] inverse mass of the points along the normal; 0 if those that yield have hardly a part in it, and would have
@@ -94,7 +99,7 @@ float SoftImpacts::mobilityOf(const Impact& impact) const {
   return part > kLeastPart ? mobility : 0;
 }
 
-bool SoftImpacts::yields(uint32_t body) const { return moves(body) && !(stops_[body].share < 1); }
+bool SoftImpacts::yields(uint32_t body) const { return moves(body) && !(d_.stops[body].share < 1); }
 
 /// [m] by which the two sides part along the normal.
 float SoftImpacts::wayOf(const Impact& impact) const {
@@ -107,13 +112,13 @@ float SoftImpacts::wayOf(const Impact& impact) const {
 void SoftImpacts::begin() {
   if (!s_.ways.empty()) return;
   s_.ways.assign(world_.bodies.size(), {});
-  pointOf_.resize(world_.bodies.size());
-  stops_.assign(world_.bodies.size(), {});
-  touched_.assign(world_.bodies.size(), 0);
+  d_.pointOf.resize(world_.bodies.size());
+  d_.stops.assign(world_.bodies.size(), {});
+  d_.touched.assign(world_.bodies.size(), 0);
   world_.softIds.forEach([&](uint32_t slot) {
     const std::vector<uint32_t>& all = world_.softs[slot].bodies;
     for (uint32_t i = 0; i < all.size(); ++i) {
-      pointOf_[all[i]] = i;
+      d_.pointOf[all[i]] = i;
       if (moves(all[i])) s_.ways[all[i]] = solvedWay(all[i]);
     }
   });
@@ -122,31 +127,32 @@ void SoftImpacts::begin() {
 void SoftImpacts::setWay(uint32_t body, Vec3 way) {
   if (!moves(body) || way == s_.ways[body]) return;
   s_.ways[body] = way;
-  if (touched_[body] == 0) changed_.push_back(body);
-  touched_[body] = 1;
+  if (d_.touched[body] == 0) d_.changed.push_back(body);
+  d_.touched[body] = 1;
 }
 
-void SoftImpacts::resolve(int pass, std::vector<std::array<uint32_t, 2>>& changed) {
-  for (const uint32_t body : changed_) touched_[body] = 0;
-  changed_.clear();
+const std::vector<std::array<uint32_t, 2>>& SoftImpacts::resolve(int pass) {
+  for (const uint32_t body : d_.changed) d_.touched[body] = 0;
+  d_.changed.clear();
   if (pass < kImpulsePasses) {
     stopMet(pass, true);
     for (int i = 0; i < kSweeps; ++i)
-      for (Impact& impact : impacts_) push(impact);
+      for (Impact& impact : d_.impacts) push(impact);
     forgetMoved();
   }
-  if (!met_.empty()) stopMet(pass, false);
-  met_.clear();
-  changed.clear();
-  for (const uint32_t body : changed_) changed.push_back({world_.bodies[body].soft, pointOf_[body]});
-  std::sort(changed.begin(), changed.end());
+  if (!d_.met.empty()) stopMet(pass, false);
+  d_.met.clear();
+  d_.points.clear();
+  for (const uint32_t body : d_.changed) d_.points.push_back({world_.bodies[body].soft, d_.pointOf[body]});
+  std::sort(d_.points.begin(), d_.points.end());
+  return d_.points;
 }
 
 /// What goes on as before would not be looked at again, and needs more.
 void SoftImpacts::forgetMoved() {
-  std::erase_if(met_, [&](size_t index) {
-    const auto& nodes = impacts_[index].nodes;
-    return std::any_of(nodes.begin(), nodes.end(), [&](uint32_t node) { return touched_[node] != 0; });
+  std::erase_if(d_.met, [&](size_t index) {
+    const auto& nodes = d_.impacts[index].nodes;
+    return std::any_of(nodes.begin(), nodes.end(), [&](uint32_t node) { return d_.touched[node] != 0; });
   });
 }
 
@@ -167,7 +173,7 @@ void SoftImpacts::push(Impact& impact) {
     if (yields(slot))
       setWay(slot, s_.ways[slot] + push * (1 / body.mass));
     else
-      stops_[slot].taken = stops_[slot].taken + push;
+      d_.stops[slot].taken = d_.stops[slot].taken + push;
   }
 }
 
@@ -177,7 +183,7 @@ bool SoftImpacts::isPushed(uint32_t slot) const {
 
 void SoftImpacts::end() {
   if (s_.ways.empty()) return;
-  for (const Impact& impact : impacts_)
+  for (const Impact& impact : d_.impacts)
     if (impact.ofShape && impact.impulse > 0 && isPushed(impact.nodes[0]))
       pushBody(impact.nodes[0], impact.arm, impact.normal * impact.impulse);
   giveBack();
@@ -210,8 +216,8 @@ void SoftImpacts::endPoint(uint32_t slot) {
   d[0] = way.x, d[1] = way.y, d[2] = way.z;
   end.position = body.position + way;
   // What no row knew of keeps its velocity, as the next step has one.
-  const bool keeps = stops_[slot].share < 1 && !stops_[slot].hadRow;
-  end.linearVelocity = end.linearVelocity + ((keeps ? stops_[slot].way : way) - solved) * (1 / step_.h);
+  const bool keeps = d_.stops[slot].share < 1 && !d_.stops[slot].hadRow;
+  end.linearVelocity = end.linearVelocity + ((keeps ? d_.stops[slot].way : way) - solved) * (1 / step_.h);
 }
 
 }  // namespace avbd

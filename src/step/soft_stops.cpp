@@ -14,25 +14,26 @@ constexpr int kPointPasses = 30;   ///< after these all points of the soft body 
 }  // namespace
 
 uint32_t SoftImpacts::groupOf(uint32_t member) {
-  while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
+  while (d_.parent[member] != member) member = d_.parent[member] = d_.parent[d_.parent[member]];
   return member;
 }
 
 void SoftImpacts::addToGroup(uint32_t slot) {
   const BodyData& body = world_.bodies[slot];
   const bool particle = isParticle(world_, slot);
-  Group& group = groups_[groupOf(particle ? body.soft : static_cast<uint32_t>(world_.softs.size()) + slot)];
+  Group& group = d_.groups[groupOf(particle ? body.soft : static_cast<uint32_t>(world_.softs.size()) + slot)];
   if (body.type != BodyType::Dynamic || body.asleep) {
     group.held = std::min(group.held, slot);
     return;
   }
-  const Vec3 way = !particle ? solvedWay(slot) : stops_[slot].share < 1 ? stops_[slot].way : s_.ways[slot];
+  const Vec3 way = !particle ? solvedWay(slot) : d_.stops[slot].share < 1 ? d_.stops[slot].way : s_.ways[slot];
   group.mass += body.mass, group.way = group.way + way * body.mass;
 }
 
-std::vector<uint32_t> SoftImpacts::bodiesOfShapes() const {
-  std::vector<uint32_t> bodies;
-  for (const Impact& impact : impacts_)
+const std::vector<uint32_t>& SoftImpacts::bodiesOfShapes() {
+  std::vector<uint32_t>& bodies = d_.shapes;
+  bodies.clear();
+  for (const Impact& impact : d_.impacts)
     if (impact.ofShape) bodies.push_back(impact.nodes[0]);
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
@@ -42,21 +43,21 @@ std::vector<uint32_t> SoftImpacts::bodiesOfShapes() const {
 /// All that has met, and the mean of how far it goes.
 void SoftImpacts::findGroups() {
   const auto softs = static_cast<uint32_t>(world_.softs.size());
-  parent_.resize(softs + world_.bodies.size());
-  for (uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = i;
+  d_.parent.resize(softs + world_.bodies.size());
+  for (uint32_t i = 0; i < d_.parent.size(); ++i) d_.parent[i] = i;
   const auto memberOf = [&](uint32_t slot) {
     return isParticle(world_, slot) ? world_.bodies[slot].soft : softs + slot;
   };
-  for (const Impact& impact : impacts_) {
+  for (const Impact& impact : d_.impacts) {
     const uint32_t a = groupOf(memberOf(impact.nodes[0])), b = groupOf(memberOf(impact.nodes[3]));
-    parent_[std::max(a, b)] = std::min(a, b);
+    d_.parent[std::max(a, b)] = std::min(a, b);
   }
-  groups_.assign(parent_.size(), {});
+  d_.groups.assign(d_.parent.size(), {});
   world_.softIds.forEach([&](uint32_t slot) {
     for (const uint32_t body : world_.softs[slot].bodies) addToGroup(body);
   });
   for (const uint32_t body : bodiesOfShapes()) addToGroup(body);
-  for (Group& group : groups_) {
+  for (Group& group : d_.groups) {
     if (group.held != kNone) {
       const BodyData& body = world_.bodies[group.held];
       group.way = body.type == BodyType::Kinematic ? body.linearVelocity * step_.h : Vec3{};
@@ -68,8 +69,8 @@ void SoftImpacts::findGroups() {
 
 void SoftImpacts::stopMet(int pass, bool onlyFast) {
   bool any = false;
-  for (const size_t index : met_) {
-    const Impact& impact = impacts_[index];
+  for (const size_t index : d_.met) {
+    const Impact& impact = d_.impacts[index];
     if (onlyFast && !impact.isFast) continue;
     any = true;
     for (const uint32_t node : impact.nodes) {
@@ -82,27 +83,28 @@ void SoftImpacts::stopMet(int pass, bool onlyFast) {
   }
   if (!any) return;
   findGroups();
-  for (const uint32_t body : stopped_) {
-    const Vec3 way = groups_[groupOf(world_.bodies[body].soft)].way;
-    setWay(body, way + (stops_[body].way - way) * stops_[body].share);
+  for (const uint32_t body : d_.stopped) {
+    const Vec3 way = d_.groups[groupOf(world_.bodies[body].soft)].way;
+    setWay(body, way + (d_.stops[body].way - way) * d_.stops[body].share);
   }
 }
 
 void SoftImpacts::stop(uint32_t body, float share, bool hasRow) {
   if (!moves(body)) return;
-  Stop& stop = stops_[body];
-  if (stop.share == 1) stop.way = s_.ways[body], stop.hadRow = true, stopped_.push_back(body);
+  Stop& stop = d_.stops[body];
+  if (stop.share == 1) stop.way = s_.ways[body], stop.hadRow = true, d_.stopped.push_back(body);
   stop.share = std::min(stop.share * share, 0.9f);
   stop.hadRow = stop.hadRow && hasRow;
 }
 
 /// Groups that nothing holds keep their momentum: all in them share what stops took.
 void SoftImpacts::giveBack() {
-  if (stopped_.empty()) return;
-  for (const uint32_t body : stopped_) {
-    Group& group = groups_[groupOf(world_.bodies[body].soft)];
-    group.lost = group.lost + stops_[body].taken;
-    if (stops_[body].hadRow) group.lost = group.lost + (stops_[body].way - s_.ways[body]) * world_.bodies[body].mass;
+  if (d_.stopped.empty()) return;
+  for (const uint32_t body : d_.stopped) {
+    Group& group = d_.groups[groupOf(world_.bodies[body].soft)];
+    group.lost = group.lost + d_.stops[body].taken;
+    if (d_.stops[body].hadRow)
+      group.lost = group.lost + (d_.stops[body].way - s_.ways[body]) * world_.bodies[body].mass;
   }
   const auto give = [&](uint32_t slot, const Group& group) {
     if (group.held != kNone || group.lost == Vec3{}) return;
@@ -110,10 +112,10 @@ void SoftImpacts::giveBack() {
     end.linearVelocity = end.linearVelocity + group.lost * (1 / (group.mass * step_.h));
   };
   world_.softIds.forEach([&](uint32_t slot) {
-    for (const uint32_t body : world_.softs[slot].bodies) give(body, groups_[groupOf(slot)]);
+    for (const uint32_t body : world_.softs[slot].bodies) give(body, d_.groups[groupOf(slot)]);
   });
   for (const uint32_t body : bodiesOfShapes())
-    if (isPushed(body)) give(body, groups_[groupOf(static_cast<uint32_t>(world_.softs.size()) + body)]);
+    if (isPushed(body)) give(body, d_.groups[groupOf(static_cast<uint32_t>(world_.softs.size()) + body)]);
 }
 
 }  // namespace avbd

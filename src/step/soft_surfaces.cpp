@@ -191,7 +191,9 @@ void nearFace(const WorldData& world, SoftSurfaces& s, uint32_t slot, uint32_t f
 
 void takeWays(const WorldData& world, StepData& step, const std::vector<std::array<uint32_t, 2>>& points) {
   SoftSurfaces& s = step.softs;
-  std::vector<std::vector<uint8_t>> touched(world.softs.size());
+  std::vector<std::vector<uint8_t>>& touched = s.moved;
+  touched.resize(world.softs.size());
+  for (std::vector<uint8_t>& ofSoft : touched) ofSoft.clear();
   for (const auto& [slot, point] : points) {
     SoftPlace& place = s.places[slot];
     const SoftData& soft = world.softs[slot];

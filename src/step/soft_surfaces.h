@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geom/face_tree.h"
+#include "step/soft_impact_data.h"
 #include "step/surface_turns.h"
 #include "world/world_data.h"
 
@@ -82,6 +83,8 @@ struct SoftSurfaces {
     uint32_t slot;
   };
   std::vector<Ends> ends;
+  SoftImpactData impacts;
+  std::vector<std::vector<uint8_t>> moved;  ///< by slot and point, of soft bodies of which some go other ways
   std::vector<Vec3> ways;  ///< [m] by body slot: of points after impacts; empty: all go where the solve leads them
   std::vector<std::array<uint32_t, 2>> pairs;  ///< slots of bodies whose bounds overlap, the lower first, one may sleep
 };
