@@ -21,7 +21,7 @@ enum class SolidModel : uint8_t {
   NeoHookean,
   /// Co-rotational (Mueller, Gross 2004; McAdams et al. 2011): mu |F - R|^2 + lambda/2 (tr(R^T F) - 3)^2, R the
   /// rotation
-  /// nearest to F. Stress goes linearly with strain however large; poissonRatio at most 0.48.
+  /// nearest to F. Stress goes linearly with strain however large. What is turned far inside out may stay so.
   Corotational
 };
 
