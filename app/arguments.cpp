@@ -81,6 +81,9 @@ void addMaterial(CLI::App& command, MaterialArguments& a) {
   add("--young", a.young, "Young's modulus [Pa]", usual.youngsModulus);
   add("--poisson", a.poisson, "Poisson's ratio", usual.poissonRatio);
   add("--density", a.density, "density [kg/m^3]", usual.density);
+  command.add_option("--solid", a.solid, "energy of it: neo-hookean or corotational [neo-hookean]")
+      ->check(CLI::IsMember({"neo-hookean", "corotational"}))
+      ->group(kMaterial);
 }
 
 void addPort(CLI::App& command, int& port) {

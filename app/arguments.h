@@ -25,6 +25,7 @@ inline constexpr int kLivePort = 8642;
 /// What a soft body from a file is made of, where it is not as usual (SoftMaterial).
 struct MaterialArguments {
   std::optional<double> young, poisson, density;  ///< [Pa], [], [kg/m^3]
+  std::string solid;                              ///< neo-hookean or corotational; empty: as usual
 };
 
 struct RunArguments {

@@ -103,12 +103,14 @@ Model loadUrdf(const RunArguments& a) {
 }
 
 void refuseMaterial(const MaterialArguments& a, const std::string& scene) {
-  const auto refuse = [&](const char* name, const std::optional<double>& value) {
-    if (value)
-      throw BadInput(std::string(name) + " " + digits(*value, 9) + ": " + scene +
-                     " is not a soft mesh (--soft makes a closed surface one)");
+  const auto refuse = [&](const char* name, const std::string& value) {
+    throw BadInput(std::string(name) + " " + value + ": " + scene +
+                   " is not a soft mesh (--soft makes a closed surface one)");
   };
-  refuse("--young", a.young), refuse("--poisson", a.poisson), refuse("--density", a.density);
+  if (a.young) refuse("--young", digits(*a.young, 9));
+  if (a.poisson) refuse("--poisson", digits(*a.poisson, 9));
+  if (a.density) refuse("--density", digits(*a.density, 9));
+  if (!a.solid.empty()) refuse("--solid", a.solid);
 }
 
 /// Numbers beyond a float's are told by the world that refuses them.
@@ -117,6 +119,7 @@ SoftMaterial materialOf(const MaterialArguments& a) {
   if (a.young) material.youngsModulus = static_cast<float>(*a.young);
   if (a.poisson) material.poissonRatio = static_cast<float>(*a.poisson);
   if (a.density) material.density = static_cast<float>(*a.density);
+  if (a.solid == "corotational") material.model = SolidModel::Corotational;
   return material;
 }
 

@@ -69,6 +69,13 @@ TEST(Run, ASoftBodyOfASurfaceFalls) {
             std::string::npos);
   EXPECT_NE(complaint({"run", "chain", "--density", "5"}).find("--density 5: chain is not a soft mesh"),
             std::string::npos);
+  arguments.insert(arguments.end(), {"--solid", "corotational"});
+  const Json turning = Json::parse(invoke(arguments).out);
+  EXPECT_TRUE(turning["finite"].get<bool>());
+  EXPECT_NE(turning["soft_bodies"], stiff["soft_bodies"]) << "another energy";
+  EXPECT_NE(complaint({"run", "chain", "--solid", "corotational"}).find("--solid corotational: chain is not a soft"),
+            std::string::npos);
+  EXPECT_NE(complaint({"run", file, "--soft", "0.5", "--solid", "linear"}).find("--solid"), std::string::npos);
 }
 
 TEST(Run, PrintsExactlyTheKeysOfTheReport) {

@@ -208,6 +208,7 @@ SoftDef Session::softDef() {
   def.pose = placePose();
   if (in_.flag()) def.velocity = {in_.vector(), in_.vector()};
   def.material = softMaterial();
+  if (kind % 3 == 1) def.material.model = kind < 140 ? SolidModel::Corotational : static_cast<SolidModel>(kind);
   if (in_.flag()) def.radius = in_.byte() < 240 ? 1e-3f * static_cast<float>(1 + in_.byte()) : in_.number();
   def.surface = material();
   def.filter = filter();

@@ -7,13 +7,16 @@
 
 namespace avbd::scenes {
 
-double sagOfBeam(const Settings& settings, int across, double nu, double seconds, float dt) {
+double sagOfBeam(const Settings& settings, int across, double nu, double seconds, float dt, SolidModel model) {
   constexpr double kSag = 0.04, kThick = 0.1;
   const double e = 1.5 * double{kSoftDensity} * double{kGravity} / (kSag * kThick * kThick);
   const double kappa = 10 * (1 + nu) / (12 + 11 * nu);
   const double shear = 4 * 2 * (1 + nu) * kThick * kThick / (12 * kappa);
   Soft soft(settings, {}, {0.5f, 0.05f, 0.05f}, {8 * across, across, across},
-            {.youngsModulus = static_cast<float>(e), .poissonRatio = static_cast<float>(nu), .density = kSoftDensity});
+            {.youngsModulus = static_cast<float>(e),
+             .poissonRatio = static_cast<float>(nu),
+             .density = kSoftDensity,
+             .model = model});
   soft.dt = dt;
   soft.each([&](BodyId p, Vec3 rest) {
     if (rest.x < -0.4999f) soft.world.setLocks(p, kLockLinearX | kLockLinearY | kLockLinearZ);
@@ -73,11 +76,11 @@ double stretchByTheory(double stretch, double nu) {
 }
 
 /// How much longer a bar of 1 m becomes under its own weight, of what theory says.
-double stretchOfBar(const Settings& settings, int across) {
+double stretchOfBar(const Settings& settings, int across, SolidModel model = SolidModel::NeoHookean) {
   constexpr float kStretch = 0.01f;
   constexpr float kE = kSoftDensity * kGravity / (2 * kStretch);
   Soft soft(settings, {}, {0.05f, 0.5f, 0.05f}, {across, 8 * across, across},
-            {.youngsModulus = kE, .density = kSoftDensity});
+            {.youngsModulus = kE, .density = kSoftDensity, .model = model});
   bool first = true;
   soft.each([&](BodyId p, Vec3 rest) {
     if (rest.y < 0.4999f) return;
@@ -87,7 +90,8 @@ double stretchOfBar(const Settings& settings, int across) {
   soft.run(10);
   const double sunk = soft.mean([](Vec3 rest) { return rest.y < -0.4999f; },
                                 [](Vec3d now, Vec3 rest) { return double{rest.y} - now.y; });
-  return sunk / stretchByTheory(double{kStretch}, 0.3);
+  // A co-rotational bar that nothing turns is Hooke's own.
+  return sunk / (model == SolidModel::Corotational ? double{kStretch} : stretchByTheory(double{kStretch}, 0.3));
 }
 
 /// What searches leave of a displacement.
@@ -119,31 +123,42 @@ std::vector<Figure> cantilever(const Settings& settings) {
   return converging({1, 2, 4}, [&](int across) { return sagOfBeam(settings, across); });
 }
 
-/// A cube between two plates that are 10 % nearer than it is high. Sideways strain by the energy's own formula: no
-/// stress sideways is mu (1 - y) + lambda (J - 1) y = 0 of the stretch y along and J = y s^2.
-std::vector<Figure> poisson(const Settings& settings) {
-  constexpr float kStretch = 0.9f;
-  std::vector<Figure> figures;
-  for (const float nu : {0.1f, 0.3f, 0.45f, 0.49f, 0.4999f}) {
-    Soft soft(settings, weightless(), {0.25f, 0.25f, 0.25f}, {4, 4, 4}, {.youngsModulus = 1e5f, .poissonRatio = nu});
+constexpr float kPressed = 0.9f;
+
+/// A cube between two plates that are 10 % nearer than it is high.
+struct PressedCube {
+  Soft soft;
+  double strain = 0;  ///< sideways
+
+  PressedCube(const Settings& settings, const SoftMaterial& material)
+      : soft(settings, weightless(), {0.25f, 0.25f, 0.25f}, {4, 4, 4}, material) {
     bool first = true;
     soft.each([&](BodyId p, Vec3 rest) {
-      soft.world.setPose(p, {{double{rest.x}, double{rest.y * kStretch}, double{rest.z}}, {}});
+      soft.world.setPose(p, {{double{rest.x}, double{rest.y * kPressed}, double{rest.z}}, {}});
       if (std::fabs(rest.y) < 0.2499f) return;
       soft.world.setLocks(p, first ? kLockLinearX | kLockLinearY | kLockLinearZ : kLockLinearY);
       first = false;
     });
     soft.run(4);
-    const auto side = [&](float sign) {
-      return soft.mean([&](Vec3 rest) { return rest.x * sign > 0.2499f; }, [](Vec3d now, Vec3) { return now.x; });
-    };
-    const double strain = (side(1) - side(-1)) / 0.5 - 1;
-    const double n = double{nu}, y = double{kStretch}, mu = 1 / (2 * (1 + n)),
+    strain = (side(1) - side(-1)) / 0.5 - 1;
+  }
+  double side(float sign) const {
+    return soft.mean([&](Vec3 rest) { return rest.x * sign > 0.2499f; }, [](Vec3d now, Vec3) { return now.x; });
+  }
+};
+
+/// Sideways strain by the energy's own formula: no stress sideways is mu (1 - y) + lambda (J - 1) y = 0 of the stretch
+/// y along and J = y s^2.
+std::vector<Figure> poisson(const Settings& settings) {
+  std::vector<Figure> figures;
+  for (const float nu : {0.1f, 0.3f, 0.45f, 0.49f, 0.4999f}) {
+    const PressedCube cube(settings, {.youngsModulus = 1e5f, .poissonRatio = nu});
+    const double n = double{nu}, y = double{kPressed}, mu = 1 / (2 * (1 + n)),
                  lambda = n / ((1 + n) * (1 - 2 * n)) + mu;
     const double volume = 1 - mu * (1 - y) / (lambda * y), expected = std::sqrt(volume / y) - 1;
-    figures.push_back(within("sideways", strain / expected, 1, 0.03, "of theory", "nu=" + text(n)));
+    figures.push_back(within("sideways", cube.strain / expected, 1, 0.03, "of theory", "nu=" + text(n)));
     if (nu >= 0.49f)
-      figures.push_back(within("volume", soft.world.volume(soft.id) / soft.mesh->volume(), volume,
+      figures.push_back(within("volume", cube.soft.world.volume(cube.soft.id) / cube.soft.mesh->volume(), volume,
                                nu < 0.4999f ? 0.01 : 0.001, "of rest", "nu=" + text(n)));
   }
   return figures;
@@ -165,8 +180,8 @@ std::vector<Figure> independence(const Settings& settings) {
 }
 
 /// The worst of the tetrahedra's edges against rest, after the shape was spoilt and left alone.
-double comesBack(const Settings& settings, const std::function<Vec3(Vec3)>& spoilt) {
-  Soft soft(settings, weightless(), {0.25f, 0.25f, 0.25f}, {3, 3, 3}, {.youngsModulus = 1e5f});
+double comesBack(const Settings& settings, SolidModel model, const std::function<Vec3(Vec3)>& spoilt) {
+  Soft soft(settings, weightless(), {0.25f, 0.25f, 0.25f}, {3, 3, 3}, {.youngsModulus = 1e5f, .model = model});
   soft.each([&](BodyId p, Vec3 rest) { soft.world.setPose(p, {toDouble(spoilt(rest)), {}}); });
   soft.run(10);
   double worst = 0;
@@ -180,26 +195,52 @@ double comesBack(const Settings& settings, const std::function<Vec3(Vec3)>& spoi
   return worst;
 }
 
-std::vector<Figure> inverted(const Settings& settings) {
+Figure flattened(const Settings& settings, SolidModel model) {
+  const auto spoilt = [](Vec3 p) { return Vec3{p.x, 0, p.z}; };
+  return atMost("strain", comesBack(settings, model, spoilt), 0.01, "", "flattened");
+}
+
+Figure mirrored(const Settings& settings, SolidModel model) {
+  const auto spoilt = [](Vec3 p) { return Vec3{p.x, -p.y, p.z}; };
+  return atMost("strain", comesBack(settings, model, spoilt), 0.01, "", "mirrored");
+}
+
+/// Points anywhere within `size` of where a share of their place has them.
+Figure scrambled(const Settings& settings, SolidModel model, float share, float size, const std::string& what) {
   Draws draws(7);
-  return {atMost("strain",
-                 comesBack(settings,
-                           [](Vec3 p) {
-                             return Vec3{p.x, 0, p.z};
-                           }),
-                 0.01, "", "flattened"),
-          atMost("strain",
-                 comesBack(settings,
-                           [](Vec3 p) {
-                             return Vec3{p.x, -p.y, p.z};
-                           }),
-                 0.01, "", "mirrored"),
-          atMost("strain",
-                 comesBack(settings,
-                           [&](Vec3) {
-                             return Vec3{draws.next(), draws.next(), draws.next()} * 0.25f;
-                           }),
-                 0.01, "", "scrambled")};
+  const auto spoilt = [&](Vec3 p) { return p * share + Vec3{draws.next(), draws.next(), draws.next()} * size; };
+  return atMost("strain", comesBack(settings, model, spoilt), 0.01, "", what);
+}
+
+std::vector<Figure> inverted(const Settings& settings) {
+  constexpr SolidModel kModel = SolidModel::NeoHookean;
+  return {flattened(settings, kModel), mirrored(settings, kModel), scrambled(settings, kModel, 0, 0.25f, "scrambled")};
+}
+
+/// Hooke's law at any strain.
+std::vector<Figure> corotational(const Settings& settings) {
+  constexpr SolidModel kModel = SolidModel::Corotational;
+  std::vector<Figure> figures;
+  figures.push_back(within("stretch", stretchOfBar(settings, 2, kModel), 1, 0.02, "of theory", "bar, across=2"));
+  for (const double nu : {0.3, 0.45})
+    figures.push_back(within("sag", sagOfBeam(settings, 4, nu, 6, 1.0f / 60, kModel), 1, 0.05, "of theory",
+                             "beam, across=4, nu=" + text(nu)));
+  for (const float nu : {0.1f, 0.3f, 0.45f, 0.48f}) {
+    const PressedCube cube(settings, {.youngsModulus = 1e5f, .poissonRatio = nu, .model = kModel});
+    figures.push_back(within("sideways", cube.strain / double{nu * (1 - kPressed)}, 1, 0.03, "of theory",
+                             "cube, nu=" + text(double{nu})));
+  }
+  Soft turning(settings, weightless(), {0.25f, 0.25f, 0.25f}, {4, 4, 4}, {.youngsModulus = 1e5f, .model = kModel},
+               {.linear = {}, .angular = {0, 2, 0}});
+  const double before = turning.world.angularMomentum().y;
+  turning.run(5);
+  figures.push_back(
+      within("angular_momentum", turning.world.angularMomentum().y / before, 1, 0.01, "of the first", "cube"));
+  figures.push_back(flattened(settings, kModel));
+  figures.push_back(mirrored(settings, kModel));
+  // By the width of a cell: from anywhere in the cube a corner may stay within it, where the energy has a minimum.
+  figures.push_back(scrambled(settings, kModel, 1, 0.16f, "scrambled by a cell"));
+  return figures;
 }
 
 /// Points of one body within tetrahedra of another.
@@ -294,9 +335,9 @@ std::vector<Figure> stackSoft(const Settings& settings) {
 
 std::vector<Line> softLines() {
   std::vector<Line> lines{
-      {"S", "free_fall", freeFall, ""},    {"S", "soft_spin", spin, ""},      {"S", "bar", bar, ""},
-      {"S", "cantilever", cantilever, ""}, {"S", "poisson", poisson, ""},     {"S", "independence", independence, ""},
-      {"S", "inverted", inverted, ""},     {"S", "stack_soft", stackSoft, ""}};
+      {"S", "free_fall", freeFall, ""},    {"S", "soft_spin", spin, ""},       {"S", "bar", bar, ""},
+      {"S", "cantilever", cantilever, ""}, {"S", "poisson", poisson, ""},      {"S", "independence", independence, ""},
+      {"S", "inverted", inverted, ""},     {"S", "stack_soft", stackSoft, ""}, {"S", "corotational", corotational, ""}};
   const std::vector<Line> more = materialLines();
   lines.insert(lines.end(), more.begin(), more.end());
   return lines;

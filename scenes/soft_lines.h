@@ -54,7 +54,8 @@ struct Soft {
 };
 
 /// How far the tip of a beam of 1 m and 0.1 m thickness sinks, of what Timoshenko says.
-double sagOfBeam(const Settings& settings, int across, double nu = 0.3, double seconds = 6, float dt = 1.0f / 60);
+double sagOfBeam(const Settings& settings, int across, double nu = 0.3, double seconds = 6, float dt = 1.0f / 60,
+                 SolidModel model = SolidModel::NeoHookean);
 
 /// What soft bodies are made of: damping, incompressibility, limits of strain, threads.
 std::vector<Line> materialLines();

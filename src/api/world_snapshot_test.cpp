@@ -240,10 +240,10 @@ TEST(Snapshot, WhatIsNoneIsRefusedByName) {
   bytes[0] = std::byte{'B'};
   expectRefused(zoo.world, bytes, "no snapshot");
   bytes = good;
-  bytes[8] = std::byte{3};
-  expectRefused(zoo.world, bytes, "version 3: must be version 4");
-  bytes[8] = std::byte{5};
-  expectRefused(zoo.world, bytes, "version 5: must be version 4");
+  bytes[8] = std::byte{4};
+  expectRefused(zoo.world, bytes, "version 4: must be version 5");
+  bytes[8] = std::byte{6};
+  expectRefused(zoo.world, bytes, "version 6: must be version 5");
   zoo.world.restore(good);
 }
 

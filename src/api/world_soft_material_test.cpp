@@ -17,7 +17,9 @@ World oneOfEach(const WorldDef& def) {
   const auto cube = makeTetBox({0.2f, 0.2f, 0.2f}, 2, 2, 2);
   const SoftMaterial solids[] = {{.youngsModulus = 1e5f, .damping = 0.05f},
                                  {.youngsModulus = 1e5f, .poissonRatio = 0.4999f},
-                                 {.youngsModulus = 3e5f, .poissonRatio = 0.4999f, .damping = 0.1f}};
+                                 {.youngsModulus = 3e5f, .poissonRatio = 0.4999f, .damping = 0.1f},
+                                 {.youngsModulus = 1e5f, .model = SolidModel::Corotational},
+                                 {.youngsModulus = 1e5f, .damping = 0.05f, .model = SolidModel::Corotational}};
   double x = 0;
   for (const SoftMaterial& material : solids)
     world.create(
@@ -43,7 +45,8 @@ TEST(SoftMaterial, IsKeptAsItWasGiven) {
                            .maxStrain = 0.1f,
                            .warp = {0, 0, 2},
                            .weftModulus = 7e4f,
-                           .shearModulus = 9e3f};
+                           .shearModulus = 9e3f,
+                           .model = SolidModel::Corotational};
   World world;
   const SoftMaterial got = world.material(world.create(SoftDef{.mesh = makeClothGrid(1, 1, 2, 2), .material = given}));
   EXPECT_EQ(got.damping, given.damping);
@@ -51,6 +54,7 @@ TEST(SoftMaterial, IsKeptAsItWasGiven) {
   EXPECT_EQ(got.warp, given.warp);
   EXPECT_EQ(got.weftModulus, given.weftModulus);
   EXPECT_EQ(got.shearModulus, given.shearModulus);
+  EXPECT_EQ(got.model, given.model);
 }
 
 TEST(SoftMaterial, OfEveryKindTheSameBitsForAllWidthsAndWorkers) {
@@ -109,6 +113,25 @@ TEST(SoftMaterial, AnIncompressibleCubeKeepsItsVolumeUnderAWeight) {
   double top = 0;
   for (const BodyId p : world.particles(id)) top = std::max(top, world.pose(p).position.y);
   EXPECT_LT(top, 0.4);  // it did give way
+}
+
+/// Two models meet in one island: a cube of either rests on the other, and both come to the sag of their weights.
+TEST(SoftMaterial, SolidsOfBothModelsStandOnEachOther) {
+  for (const SolidModel below : {SolidModel::NeoHookean, SolidModel::Corotational}) {
+    World world;
+    world.create(BodyDef{.type = BodyType::Static, .shape = HalfSpace{}});
+    double y = 0.21;
+    for (const SolidModel model :
+         {below, below == SolidModel::NeoHookean ? SolidModel::Corotational : SolidModel::NeoHookean}) {
+      world.create(SoftDef{.mesh = makeTetBox({0.2f, 0.2f, 0.2f}, 2, 2, 2),
+                           .pose = {{0, y, 0}, {}},
+                           .material = {.youngsModulus = 1e5f, .model = model}});
+      y += 0.42;
+    }
+    run(world, 240);
+    for (const SoftId id : world.softBodies()) EXPECT_NEAR(world.volume(id) / 0.064, 1, 0.05);
+    EXPECT_NEAR(world.pose(world.particles(world.softBodies()[1]).back()).position.y, 0.83, 0.05);
+  }
 }
 
 }  // namespace

@@ -194,6 +194,10 @@ TEST(Soft, WhatIsNoneIsRefusedByName) {
   expectRefused({.material = {.bending = nan}}, "bending");
   expectRefused({.material = {.poissonRatio = 0.5f}},
                 "poissonRatio = 0.5: must be finite and >= -0.9 and at most 0.4999");
+  expectRefused({.material = {.poissonRatio = 0.49f, .model = SolidModel::Corotational}},
+                "poissonRatio = 0.49: must be at most 0.48 where model is Corotational");
+  EXPECT_EQ(complaint({.material = {.poissonRatio = 0.48f, .model = SolidModel::Corotational}}), "accepted");
+  expectRefused({.material = {.model = static_cast<SolidModel>(2)}}, "model = 2: must be NeoHookean or Corotational");
   for (const float bad : {-1.0f, nan, 1e7f}) expectRefused({.material = {.damping = bad}}, "damping");
   for (const float bad : {0.0f, nan, 1e7f}) expectRefused({.material = {.maxStrain = bad}}, "maxStrain");
   for (const float bad : {0.0f, nan, 1e14f}) {

@@ -17,6 +17,7 @@
 #include <span>
 
 #include "avbd/rows/cloth_bend.h"
+#include "avbd/rows/corotational.h"
 #include "avbd/rows/family.h"
 #include "avbd/rows/node_contact.h"
 #include "avbd/rows/star_elastic.h"
@@ -92,9 +93,10 @@ struct StarLink {
 };
 
 /// Stars of points of soft solids, in tiles of 16. Star i joins its centre to links begin[i] .. begin[i + 1] - 1.
+template <template <class> class Star, template <class> class Op>
 struct StarTiles {
-  Tile<rows::StarElastic>* tile = nullptr;
-  Tile<rows::SolidOp>* op = nullptr;
+  Tile<Star>* tile = nullptr;
+  Tile<Op>* op = nullptr;
   const uint32_t* center = nullptr;  ///< body rows
   const uint32_t* begin = nullptr;
   const StarLink* link = nullptr;
@@ -170,7 +172,9 @@ struct BatchView {
   NodeTiles<rows::TetElastic, rows::ElasticOp> elastic;
   NodeTiles<rows::TriangleElastic, rows::TriangleOp> triangles;
   NodeTiles<rows::ClothBend, rows::BendOp> bends;
-  StarTiles stars;
+  StarTiles<rows::StarElastic, rows::SolidOp> stars;
+  NodeTiles<rows::TetCorotational, rows::TetCorotationalOp> corotational;  ///< of solids by that energy
+  StarTiles<rows::StarCorotational, rows::CorotationalOp> corotationalStars;
   bool threads = false;  ///< some of these dampen, are woven or have a limit
   NodeTiles<rows::NodeContact, rows::NodeContactOp> nodeContacts;
   ScalarJoints scalar;

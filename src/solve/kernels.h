@@ -273,7 +273,8 @@ void multiplyOthers(const BatchView& v) {
   multiplyFull(v);
   multiplyElements(v, v.tets);
   multiplySofts(v);
-  multiplyStars(v);
+  multiplyStars(v, v.stars);
+  multiplyStars(v, v.corotationalStars);
 }
 
 }  // namespace

@@ -60,15 +60,22 @@ struct ElementStamp {
   Op op;
 };
 
-AVBD_INLINE ElementStamp<ElasticOp<R>> stampOf(const TetElastic<R>& tet, const V3<R> (&d)[4]) {
-  ElementStamp<ElasticOp<R>> stamp;
-  const Deformation<R> s = tet.deformation(d);
+template <class Op, class Tet>
+AVBD_INLINE ElementStamp<Op> stampOfTet(const Tet& tet, const V3<R> (&d)[4]) {
+  ElementStamp<Op> stamp;
+  const auto s = tet.deformation(d);
   stamp.op = tet.op(s);
   tet.gradient(s, stamp.op, stamp.gradient);
   return stamp;
 }
 
-AVBD_INLINE void blocksOf(const TetElastic<R>& tet, const ElasticOp<R>& op, Sym3<R> (&block)[4]) {
+AVBD_INLINE auto stampOf(const TetElastic<R>& tet, const V3<R> (&d)[4]) { return stampOfTet<ElasticOp<R>>(tet, d); }
+AVBD_INLINE auto stampOf(const TetCorotational<R>& tet, const V3<R> (&d)[4]) {
+  return stampOfTet<TetCorotationalOp<R>>(tet, d);
+}
+
+template <class Op>
+AVBD_INLINE void blocksOf(const TetElastic<R>& tet, const Op& op, Sym3<R> (&block)[4]) {
   const V3<R> g[4] = {-(tet.gb + tet.gc + tet.gd), tet.gb, tet.gc, tet.gd};
   for (int i = 0; i < 4; ++i) block[i] = solidBlock(op.solid, g[i]);
 }
@@ -227,6 +234,7 @@ void multiplyNodeContacts(const BatchView& v) {
 
 void multiplySofts(const BatchView& v) {
   multiplyElements(v, v.elastic, v.threads);
+  multiplyElements(v, v.corotational, v.threads);
   multiplyElements(v, v.triangles, v.threads);
   multiplyElements(v, v.bends);
   multiplyNodeContacts(v);

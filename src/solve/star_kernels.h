@@ -13,7 +13,8 @@ struct StarColumns {
 
 /// Sums of (d - d of the centre) b^T over the points of N stars, d from an array of body rows: a motion that all share
 /// is no deformation, to the last bit.
-AVBD_INLINE Columns<R> sumStars(const StarTiles& stars, const float* array, uint32_t at) {
+template <class Stars>
+AVBD_INLINE Columns<R> sumStars(const Stars& stars, const float* array, uint32_t at) {
   StarColumns sums;
   for (uint32_t l = 0; l < N; ++l) {
     const StarRow center = lane::load<StarRow>(array + size_t(8) * stars.center[at + l]);
@@ -33,7 +34,8 @@ AVBD_INLINE Columns<R> sumStars(const StarTiles& stars, const float* array, uint
 }
 
 /// Adds P b to all points of N stars, and to their centres what makes the sum zero.
-AVBD_INLINE void spreadStars(const StarTiles& stars, float* array, uint32_t at, const Columns<R>& p) {
+template <class Stars>
+AVBD_INLINE void spreadStars(const Stars& stars, float* array, uint32_t at, const Columns<R>& p) {
   const R o = zero<R>();
   const R c[12] = {p.x.x, p.x.y, p.x.z, o, p.y.x, p.y.y, p.y.z, o, p.z.x, p.z.y, p.z.z, o};
   StarColumns stress;
@@ -59,31 +61,35 @@ AVBD_INLINE void addStarBlock(const BatchView& v, uint32_t row, const Sym3<float
   for (int k = 0; k < 6; ++k) v.elementBlocks[size_t(kElementBlock) * row + static_cast<size_t>(k)] += entries[k];
 }
 
-AVBD_INLINE void addStarBlocks(const BatchView& v, uint32_t star) {
-  const SolidOp<float> op = v.stars.op[star / kTile].get(static_cast<int>(star % kTile));
+template <class Stars>
+AVBD_INLINE void addStarBlocks(const BatchView& v, const Stars& stars, uint32_t star) {
+  const auto op = stars.op[star / kTile].get(static_cast<int>(star % kTile));
   V3<float> center = zeroV3<float>();
-  for (uint32_t i = v.stars.begin[star]; i < v.stars.begin[star + 1]; ++i) {
-    const StarLink& link = v.stars.link[i];
+  for (uint32_t i = stars.begin[star]; i < stars.begin[star + 1]; ++i) {
+    const StarLink& link = stars.link[i];
     const V3<float> b{link.x, link.y, link.z};
     addStarBlock(v, link.row, solidBlock(op, b));
     center -= b;
   }
-  addStarBlock(v, v.stars.center[star], solidBlock(op, center));
+  addStarBlock(v, stars.center[star], solidBlock(op, center));
 }
 
-void stampStars(const BatchView& v, bool dual, bool blocks) {
-  forLanes({0, v.stars.tiles}, [&](uint32_t t, int o) {
+template <template <class> class Star, template <class> class Op>
+void stampStars(const BatchView& v, const StarTiles<Star, Op>& stars, bool dual, bool blocks) {
+  forLanes({0, stars.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
-    StarElastic<R> star = v.stars.tile[t].load<N>(o);
-    const Deformation<R> s = deformationOf(star.start + sumStars(v.stars, v.d, at));
-    if (dual) {
-      star.pressure = star.pressureAt(s);
-      v.stars.tile[t].store<N>(o, star);
+    Star<R> star = stars.tile[t].template load<N>(o);
+    const auto s = star.deformation(sumStars(stars, v.d, at));
+    if constexpr (requires { star.pressure; }) {
+      if (dual) {
+        star.pressure = star.pressureAt(s);
+        stars.tile[t].template store<N>(o, star);
+      }
     }
-    const SolidOp<R> op = star.op(s);
-    v.stars.op[t].store<N>(o, op);
-    spreadStars(v.stars, v.gradient, at, star.stress(s, op));
-    for (uint32_t l = 0; blocks && l < N; ++l) addStarBlocks(v, at + l);
+    const Op<R> op = star.op(s);
+    stars.op[t].template store<N>(o, op);
+    spreadStars(stars, v.gradient, at, star.stress(s, op));
+    for (uint32_t l = 0; blocks && l < N; ++l) addStarBlocks(v, stars, at + l);
   });
 }
 
@@ -93,22 +99,25 @@ void addElementBlocks(const BatchView& v) {
 }
 
 void stampSofts(const BatchView& v, bool dual, ElementBlocks blocks) {
-  if (v.elastic.tiles + v.triangles.tiles + v.bends.tiles + v.stars.tiles == 0) return;
+  if (v.elastic.tiles + v.corotational.tiles + v.triangles.tiles + v.bends.tiles == 0) return;
   const bool isNew = blocks == ElementBlocks::New;
   if (isNew) std::fill_n(v.elementBlocks, size_t(kElementBlock) * v.rows, 0.0f);
   if (dual) dualTriangles(v);
   stampElements(v, v.elastic, isNew);
+  stampElements(v, v.corotational, isNew);
   stampElements(v, v.triangles, isNew);
   stampElements(v, v.bends, isNew);
-  stampStars(v, dual, isNew);
+  stampStars(v, v.stars, dual, isNew);
+  stampStars(v, v.corotationalStars, dual, isNew);
   if (blocks != ElementBlocks::None) addElementBlocks(v);
 }
 
-void multiplyStars(const BatchView& v) {
-  forLanes({0, v.stars.tiles}, [&](uint32_t t, int o) {
+template <class Stars>
+void multiplyStars(const BatchView& v, const Stars& stars) {
+  forLanes({0, stars.tiles}, [&](uint32_t t, int o) {
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
-    const Columns<R> d = sumStars(v.stars, v.p, at);
-    spreadStars(v.stars, v.q, at, stressRate(v.stars.op[t].load<N>(o), v.threads, d));
+    const Columns<R> d = sumStars(stars, v.p, at);
+    spreadStars(stars, v.q, at, stressRate(stars.op[t].template load<N>(o), v.threads, d));
   });
 }
 
@@ -116,7 +125,7 @@ void dualStars(const BatchView& v) {
   forLanes({0, v.stars.tiles}, [&](uint32_t t, int o) {
     StarElastic<R> star = v.stars.tile[t].load<N>(o);
     const uint32_t at = t * kTile + static_cast<uint32_t>(o);
-    star.pressure = star.pressureAt(deformationOf(star.start + sumStars(v.stars, v.d, at)));
+    star.pressure = star.pressureAt(star.deformation(sumStars(v.stars, v.d, at)));
     v.stars.tile[t].store<N>(o, star);
   });
 }

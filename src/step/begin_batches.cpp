@@ -12,15 +12,22 @@ namespace {
 
 constexpr uint32_t kBatchBodies = kShareAll ? 1 : 64;  ///< islands are added to a batch until it holds so many bodies
 
+template <class Solids>
+void clearSolids(Solids& solids) {
+  for (auto& lanes : solids.row) lanes.clear();
+  solids.tets.clear(), solids.stars.clear();
+  solids.starCenter.clear(), solids.starLinks.clear(), solids.starBegin.assign(1, 0);
+}
+
 void clearLanes(StepData& step) {
   for (auto* lanes : {step.contactRow, step.ballRow, step.fixedRow, step.fullRow, step.scalarRow})
     for (int side = 0; side < 2; ++side) lanes[side].clear();
   for (auto& lanes : step.tetRow) lanes.clear();
   step.contactPair.clear(), step.ballJoint.clear(), step.fixedJoint.clear(), step.tetJoint.clear();
-  for (auto* lanes : {step.elasticRow, step.triangleRow, step.bendRow})
+  for (auto* lanes : {step.triangleRow, step.bendRow})
     for (int i = 0; i < 4; ++i) lanes[i].clear();
-  step.elements.clear(), step.triangles.clear(), step.hinges.clear();
-  step.stars.clear(), step.starCenter.clear(), step.starLinks.clear(), step.starBegin.assign(1, 0);
+  step.triangles.clear(), step.hinges.clear();
+  clearSolids(step.elastic), clearSolids(step.corotational);
   for (auto& lanes : step.touchRow) lanes.clear();
   step.touchLane.clear();
   step.fullPair.clear(), step.scalar.clear(), step.linked.clear();
@@ -98,7 +105,7 @@ Slice addElements(const WorldData& world, StepData& step, const BatchRange& batc
     const Island& island = step.islands[batch.islandBegin + i];
     for (uint32_t k = island.softBegin; k < island.softBegin + island.softCount; ++k) {
       const SoftData& soft = world.softs[step.islandSofts[k]];
-      const std::span<const std::array<uint32_t, n>> all = of(*soft.mesh);
+      const std::span<const std::array<uint32_t, n>> all = of(soft);
       for (uint32_t index = 0; index < all.size(); ++index) {
         elements.push_back({step.islandSofts[k], index});
         for (size_t c = 0; c < 4; ++c)
@@ -112,48 +119,69 @@ Slice addElements(const WorldData& world, StepData& step, const BatchRange& batc
 }
 
 /// Stars of a soft solid.
-void addStars(StepData& step, uint32_t slot, const SoftData& soft) {
+template <class Solids>
+void addStars(const StepData& step, Solids& solids, uint32_t slot, const SoftData& soft) {
   const SoftMeshData::Parts& mesh = soft.mesh->parts();
   const auto row = [&](uint32_t point) { return step.rowOf[soft.bodies[point]]; };
   for (uint32_t center = 0; center < mesh.starVolumes.size(); ++center) {
-    step.stars.push_back({slot, center});
-    step.starCenter.push_back(row(center));
+    solids.stars.push_back({slot, center});
+    solids.starCenter.push_back(row(center));
     for (uint32_t i = mesh.starBegin[center]; i < mesh.starBegin[center + 1]; ++i) {
       const StarPoint& star = mesh.starPoints[i];
-      step.starLinks.push_back({star.gradient.x, star.gradient.y, star.gradient.z, row(star.point)});
+      solids.starLinks.push_back({star.gradient.x, star.gradient.y, star.gradient.z, row(star.point)});
     }
-    step.starBegin.push_back(static_cast<uint32_t>(step.starLinks.size()));
+    solids.starBegin.push_back(static_cast<uint32_t>(solids.starLinks.size()));
   }
 }
 
-void addStars(const WorldData& world, StepData& step, BatchRange& batch) {
-  batch.starTile = static_cast<uint32_t>(step.stars.size()) / kTile;
+template <class Solids>
+Slice addStars(const WorldData& world, const StepData& step, const BatchRange& batch, Solids& solids,
+               SolidModel model) {
+  const auto begin = static_cast<uint32_t>(solids.stars.size()) / kTile;
   for (uint32_t n = 0; n < batch.islandCount; ++n) {
     const Island& island = step.islands[batch.islandBegin + n];
     for (uint32_t k = island.softBegin; k < island.softBegin + island.softCount; ++k) {
       const SoftData& soft = world.softs[step.islandSofts[k]];
-      const SoftMaterial& material = soft.material;
-      if (material.damping > step.h || isWoven(material) || material.maxStrain >= 0) batch.threads = true;
-      if (!soft.mesh->isCloth()) addStars(step, step.islandSofts[k], soft);
+      if (!soft.mesh->isCloth() && soft.material.model == model) addStars(step, solids, step.islandSofts[k], soft);
     }
   }
-  step.stars.resize(roundUp(static_cast<uint32_t>(step.stars.size())));
-  padLanes(step.starCenter, batch.bodies);
-  step.starBegin.resize(step.stars.size() + 1, static_cast<uint32_t>(step.starLinks.size()));
-  batch.starTiles = static_cast<uint32_t>(step.stars.size()) / kTile - batch.starTile;
+  solids.stars.resize(roundUp(static_cast<uint32_t>(solids.stars.size())));
+  padLanes(solids.starCenter, batch.bodies);
+  solids.starBegin.resize(solids.stars.size() + 1, static_cast<uint32_t>(solids.starLinks.size()));
+  return {begin, static_cast<uint32_t>(solids.stars.size()) / kTile};
+}
+
+template <class Solids>
+Slice addTets(const WorldData& world, StepData& step, const BatchRange& batch, Solids& solids, SolidModel model) {
+  return addElements<4>(world, step, batch, solids.tets, solids.row, [&](const SoftData& soft) {
+    return soft.material.model == model ? soft.mesh->tets() : std::span<const std::array<uint32_t, 4>>();
+  });
+}
+
+bool hasThreads(const WorldData& world, const StepData& step, const BatchRange& batch) {
+  for (uint32_t n = 0; n < batch.islandCount; ++n) {
+    const Island& island = step.islands[batch.islandBegin + n];
+    for (uint32_t k = island.softBegin; k < island.softBegin + island.softCount; ++k) {
+      const SoftMaterial& material = world.softs[step.islandSofts[k]].material;
+      if (material.damping > step.h || isWoven(material) || material.maxStrain >= 0) return true;
+    }
+  }
+  return false;
 }
 
 void addSofts(const WorldData& world, StepData& step, BatchRange& batch) {
-  const Slice tets = addElements<4>(world, step, batch, step.elements, step.elasticRow,
-                                    [](const SoftMeshData& mesh) { return mesh.tets(); });
+  constexpr SolidModel kNeoHookean = SolidModel::NeoHookean, kCorotational = SolidModel::Corotational;
+  batch.elastic = addTets(world, step, batch, step.elastic, kNeoHookean);
+  batch.corotational = addTets(world, step, batch, step.corotational, kCorotational);
   const Slice triangles = addElements<3>(world, step, batch, step.triangles, step.triangleRow,
-                                         [](const SoftMeshData& mesh) { return mesh.triangles(); });
+                                         [](const SoftData& soft) { return soft.mesh->triangles(); });
   const Slice hinges = addElements<4>(world, step, batch, step.hinges, step.bendRow,
-                                      [](const SoftMeshData& mesh) { return mesh.hinges(); });
-  batch.elasticTile = tets.begin, batch.elasticTiles = tets.end - tets.begin;
+                                      [](const SoftData& soft) { return soft.mesh->hinges(); });
   batch.triangleTile = triangles.begin, batch.triangleTiles = triangles.end - triangles.begin;
   batch.bendTile = hinges.begin, batch.bendTiles = hinges.end - hinges.begin;
-  addStars(world, step, batch);
+  batch.stars = addStars(world, step, batch, step.elastic, kNeoHookean);
+  batch.corotationalStars = addStars(world, step, batch, step.corotational, kCorotational);
+  batch.threads = hasThreads(world, step, batch);
 }
 
 void addTouches(const WorldData& world, StepData& step, BatchRange& batch) {
@@ -209,19 +237,24 @@ void clearRowsBeyondChunks(StepData& step) {
   }
 }
 
+template <class Solids>
+void resizeSolids(Solids& solids) {
+  const size_t tets = solids.tets.size() / kTile, stars = solids.stars.size() / kTile;
+  makeRoom(solids.tetTiles, tets), makeRoom(solids.tetOp, tets);
+  makeRoom(solids.starTiles, stars), makeRoom(solids.starOp, stars);
+}
+
 void resizeTiles(StepData& step) {
   const size_t contacts = step.contactPair.size() / kTile, balls = step.ballJoint.size() / kTile,
                fixed = step.fixedJoint.size() / kTile, tets = step.tetJoint.size() / kTile,
                full = step.fullPair.size() / kTile, scalars = step.scalar.size() / kTile;
   makeRoom(step.contacts, contacts), makeRoom(step.balls, balls), makeRoom(step.fixed, fixed);
   makeRoom(step.tets, tets), makeRoom(step.full, full);
-  const size_t elements = step.elements.size() / kTile;
   makeRoom(step.touchTiles, step.touchLane.size() / kTile), makeRoom(step.touchOp, step.touchLane.size() / kTile);
   const size_t triangles = step.triangles.size() / kTile, hinges = step.hinges.size() / kTile;
   makeRoom(step.triangleTiles, triangles), makeRoom(step.triangleOp, triangles);
   makeRoom(step.bendTiles, hinges), makeRoom(step.bendOp, hinges);
-  makeRoom(step.elastic, elements), makeRoom(step.elasticOp, elements);
-  makeRoom(step.starTiles, step.stars.size() / kTile), makeRoom(step.starOp, step.stars.size() / kTile);
+  resizeSolids(step.elastic), resizeSolids(step.corotational);
   makeRoom(step.op, contacts + balls + fixed + scalars), makeRoom(step.tetOp, tets), makeRoom(step.fullOp, full);
 }
 
@@ -325,12 +358,20 @@ BatchView StepData::view(size_t index) {
     for (int i = 0; i < 4; ++i) out.node[i] = rows[i].data() + size_t(begin) * kTile;
   };
   nodes(v.tets, tets, tetOp, tetRow, b.tetTile, b.tetTiles);
-  nodes(v.elastic, elastic, elasticOp, elasticRow, b.elasticTile, b.elasticTiles);
+  const auto solids = [&](auto& toTets, auto& toStars, auto& from, Slice tetTiles, Slice stars) {
+    nodes(toTets, from.tetTiles, from.tetOp, from.row, tetTiles.begin, tetTiles.end - tetTiles.begin);
+    const size_t star = size_t(stars.begin) * kTile;
+    toStars = {from.starTiles.data() + stars.begin,
+               from.starOp.data() + stars.begin,
+               from.starCenter.data() + star,
+               from.starBegin.data() + star,
+               from.starLinks.data(),
+               stars.end - stars.begin};
+  };
+  solids(v.elastic, v.stars, elastic, b.elastic, b.stars);
+  solids(v.corotational, v.corotationalStars, corotational, b.corotational, b.corotationalStars);
   nodes(v.triangles, triangleTiles, triangleOp, triangleRow, b.triangleTile, b.triangleTiles);
   nodes(v.bends, bendTiles, bendOp, bendRow, b.bendTile, b.bendTiles);
-  const size_t star = size_t(b.starTile) * kTile;
-  v.stars = {starTiles.data() + b.starTile, starOp.data() + b.starTile, starCenter.data() + star,
-             starBegin.data() + star,       starLinks.data(),           b.starTiles};
   v.threads = b.threads;
   nodes(v.nodeContacts, touchTiles, touchOp, touchRow, b.touchTile, b.touchTiles);
   v.locked = lockedRows.data() + b.lockedBegin, v.locks = locks.data() + b.lockedBegin;

@@ -33,12 +33,13 @@ struct Corners {
 /// t / h of solid.h. The step itself damps as one of its length would, which is part of what is asked for.
 float dampingOf(const SoftMaterial& material, float h) { return std::max(0.0f, material.damping / h - 1); }
 
-rows::TetElastic<float> tetRows(const WorldData& world, float h, const StepData::Element& element) {
+template <template <class> class Tet>
+Tet<float> tetRows(const WorldData& world, float h, const StepData::Element& element) {
   const SoftData& soft = world.softs[element.soft];
   const Corners corners{world, soft, soft.mesh->tets()[element.index].data()};
   const TetAtRest& rest = soft.mesh->parts().tetsAtRest[element.index];
   const Elasticity elasticity = elasticityOf(soft.material);
-  rows::TetElastic<float> rows;
+  Tet<float> rows;
   rows.ab = corners.edge(0, 1), rows.ac = corners.edge(0, 2), rows.ad = corners.edge(0, 3);
   rows.gb = toRow(rest.gb), rows.gc = toRow(rest.gc), rows.gd = toRow(rest.gd);
   rows.mu = elasticity.tetMu * rest.volume, rows.lambda = elasticity.tetLambda * rest.volume;
@@ -46,14 +47,16 @@ rows::TetElastic<float> tetRows(const WorldData& world, float h, const StepData:
   return rows;
 }
 
-rows::StarElastic<float> starRows(const WorldData& world, float h, const StepData::Element& element) {
+template <template <class> class Star>
+Star<float> starRows(const WorldData& world, float h, const StepData::Element& element) {
   const SoftData& soft = world.softs[element.soft];
   const SoftMeshData::Parts& mesh = soft.mesh->parts();
   const Elasticity elasticity = elasticityOf(soft.material);
   const auto at = [&](uint32_t point) { return world.bodies[soft.bodies[point]].position; };
   const Vec3d center = at(element.index);
   const rows::V3<float> none = rows::zeroV3<float>();
-  rows::StarElastic<float> rows{{none, none, none}, 0, 0, 0, 0, 0};
+  Star<float> rows{};
+  rows.start = {none, none, none};
   for (uint32_t i = mesh.starBegin[element.index]; i < mesh.starBegin[element.index + 1]; ++i) {
     const StarPoint& star = mesh.starPoints[i];
     const rows::V3<float> arm = toRow(at(star.point) - center);
@@ -61,8 +64,11 @@ rows::StarElastic<float> starRows(const WorldData& world, float h, const StepDat
   }
   const float volume = mesh.starVolumes[element.index];
   rows.mu = elasticity.starMu * volume, rows.lambda = elasticity.starLambda * volume;
-  rows.share = elasticity.starShare, rows.damping = dampingOf(soft.material, h);
-  if (!soft.memory.pressures.empty()) rows.pressure = soft.memory.pressures[element.index];
+  rows.damping = dampingOf(soft.material, h);
+  if constexpr (requires { rows.pressure; }) {
+    rows.share = elasticity.starShare;
+    if (!soft.memory.pressures.empty()) rows.pressure = soft.memory.pressures[element.index];
+  }
   return rows;
 }
 
@@ -147,21 +153,29 @@ void fill(const StepData& step, const std::vector<StepData::Element>& elements, 
   });
 }
 
+template <template <class> class Tet, template <class> class TetOp, template <class> class Star,
+          template <class> class StarOp>
+void fillSolids(const WorldData& world, const StepData& step, StepData::Solids<Tet, TetOp, Star, StarOp>& solids) {
+  fill(step, solids.tets, solids.tetTiles, [&](const StepData::Element& e) { return tetRows<Tet>(world, step.h, e); });
+  fill(step, solids.stars, solids.starTiles,
+       [&](const StepData::Element& e) { return starRows<Star>(world, step.h, e); });
+}
+
 }  // namespace
 
 void fillElements(const WorldData& world, StepData& step) {
-  fill(step, step.elements, step.elastic, [&](const StepData::Element& e) { return tetRows(world, step.h, e); });
-  fill(step, step.stars, step.starTiles, [&](const StepData::Element& e) { return starRows(world, step.h, e); });
+  fillSolids(world, step, step.elastic);
+  fillSolids(world, step, step.corotational);
   fill(step, step.triangles, step.triangleTiles,
        [&](const StepData::Element& e) { return triangleRows(world, step, e); });
   fill(step, step.hinges, step.bendTiles, [&](const StepData::Element& e) { return bendRows(world, e); });
 }
 
 void publishElements(WorldData& world, const StepData& step) {
-  for (size_t lane = 0; lane < step.stars.size(); ++lane) {
-    const StepData::Element& star = step.stars[lane];
+  for (size_t lane = 0; lane < step.elastic.stars.size(); ++lane) {
+    const StepData::Element& star = step.elastic.stars[lane];
     if (star.soft == kNone || world.softs[star.soft].memory.pressures.empty()) continue;
-    const rows::StarElastic<float> rows = step.starTiles[lane / kTile].get(static_cast<int>(lane % kTile));
+    const rows::StarElastic<float> rows = step.elastic.starTiles[lane / kTile].get(static_cast<int>(lane % kTile));
     world.softs[star.soft].memory.pressures[star.index] = rows.pressure;
   }
   for (size_t lane = 0; lane < step.triangles.size(); ++lane) {

@@ -42,13 +42,14 @@ struct BatchRange {
   uint32_t ballTile = 0, ballTiles = 0;
   uint32_t fixedTile = 0, fixedTiles = 0;
   uint32_t tetTile = 0, tetTiles = 0;
-  uint32_t elasticTile = 0, elasticTiles = 0;
   uint32_t touchTile = 0, touchTiles = 0;
   uint32_t triangleTile = 0, triangleTiles = 0;
   uint32_t bendTile = 0, bendTiles = 0;
-  uint32_t starTile = 0, starTiles = 0;
+  Slice elastic, stars, corotational, corotationalStars;
   bool threads = false;  ///< as in BatchView
-  bool hasElements() const { return elasticTiles + triangleTiles > 0; }
+  bool hasElements() const {
+    return elastic.end - elastic.begin + corotational.end - corotational.begin + triangleTiles > 0;
+  }
   uint32_t fullTile = 0, fullTiles = 0;
   uint32_t scalarTile = 0, scalarTiles = 0, scalarCount = 0;
   uint32_t linkedBegin = 0, linkedCount = 0;
@@ -358,8 +359,8 @@ struct StepData {
   struct Element {
     uint32_t soft = kNone, index = 0;
   };
-  std::vector<Element> elements, triangles, hinges, stars;
-  std::vector<uint32_t> elasticRow[4], triangleRow[4], bendRow[4];
+  std::vector<Element> triangles, hinges;
+  std::vector<uint32_t> triangleRow[4], bendRow[4];
   UnwrittenVector<Tile<rows::TriangleElastic>> triangleTiles;
   UnwrittenVector<Tile<rows::TriangleOp>> triangleOp;
   UnwrittenVector<Tile<rows::ClothBend>> bendTiles;
@@ -368,12 +369,21 @@ struct StepData {
   std::vector<uint32_t> touchRow[4];
   UnwrittenVector<Tile<rows::NodeContact>> touchTiles;
   UnwrittenVector<Tile<rows::NodeContactOp>> touchOp;
-  UnwrittenVector<Tile<rows::TetElastic>> elastic;
-  UnwrittenVector<Tile<rows::ElasticOp>> elasticOp;
-  std::vector<uint32_t> starCenter, starBegin;  ///< by star, as in StarTiles
-  std::vector<StarLink> starLinks;
-  UnwrittenVector<Tile<rows::StarElastic>> starTiles;
-  UnwrittenVector<Tile<rows::SolidOp>> starOp;
+  /// Tetrahedra and stars of one energy.
+  template <template <class> class Tet, template <class> class TetOp, template <class> class Star,
+            template <class> class StarOp>
+  struct Solids {
+    std::vector<Element> tets, stars;
+    std::vector<uint32_t> row[4];
+    UnwrittenVector<Tile<Tet>> tetTiles;
+    UnwrittenVector<Tile<TetOp>> tetOp;
+    std::vector<uint32_t> starCenter, starBegin;  ///< by star, as in StarTiles
+    std::vector<StarLink> starLinks;
+    UnwrittenVector<Tile<Star>> starTiles;
+    UnwrittenVector<Tile<StarOp>> starOp;
+  };
+  Solids<rows::TetElastic, rows::ElasticOp, rows::StarElastic, rows::SolidOp> elastic;
+  Solids<rows::TetCorotational, rows::TetCorotationalOp, rows::StarCorotational, rows::CorotationalOp> corotational;
   std::vector<uint32_t> fullPair;  ///< by lane, as contactPair
   UnwrittenVector<Tile<NodeOp>> tetOp;
   UnwrittenVector<Tile<ScaledOp>> fullOp;

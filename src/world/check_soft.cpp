@@ -11,6 +11,7 @@ namespace avbd {
 namespace {
 
 constexpr double kMaxModulus = 1e13, kLeastPoisson = -0.9, kMostPoisson = 0.4999;
+constexpr double kMostCorotational = 0.48;  ///< Poisson ratio: what pressures are not augmented for
 constexpr double kMaxDamping = 1e6, kMaxStrain = 100, kMaxWarp = 1e6;
 constexpr float kMinWarp = 1e-6f;
 
@@ -27,6 +28,12 @@ void checkThreads(const Path& path, const SoftMaterial& material) {
 void checkSoftMaterial(const Path& path, const SoftMaterial& material, float unit) {
   check(path / "youngsModulus", material.youngsModulus, positive(kMaxModulus));
   check(path / "poissonRatio", material.poissonRatio, Range{kLeastPoisson, kMostPoisson});
+  if (material.model != SolidModel::NeoHookean && material.model != SolidModel::Corotational)
+    (path / "model").refuse(toText(static_cast<int>(material.model)), "must be NeoHookean or Corotational");
+  if (material.model == SolidModel::Corotational && double{material.poissonRatio} > kMostCorotational)
+    (path / "poissonRatio")
+        .refuse(toText(material.poissonRatio),
+                "must be at most " + toText(kMostCorotational) + " where model is Corotational: NeoHookean takes more");
   check(path / "density", material.density, positive(kMaxDensity));
   check(path / "thickness", material.thickness, Range{kMinSize * unit, kMaxSize * unit});
   check(path / "bending", material.bending, symmetric(kMaxModulus));

@@ -11,7 +11,7 @@
 
 namespace avbd {
 
-inline constexpr uint32_t kSnapshotVersion = 4;
+inline constexpr uint32_t kSnapshotVersion = 5;
 
 /// Everything that the next steps and calls depend on, but for what the user holds: hook, shared geometry, families.
 /// `sides` is memory that it uses.

@@ -16,7 +16,7 @@ void codeNumbers(Codec& codec, Soft& soft) {
   codec.put(material.youngsModulus), codec.put(material.poissonRatio), codec.put(material.density);
   codec.put(material.thickness), codec.put(material.bending), codec.put(material.damping);
   codec.put(material.maxStrain), codec.put(material.warp);
-  codec.put(material.weftModulus), codec.put(material.shearModulus);
+  codec.put(material.weftModulus), codec.put(material.shearModulus), codec.put(material.model);
   codec.put(radius), codec.put(selfContact), codec.put(userData);
 }
 
@@ -95,6 +95,7 @@ void codeSofts(Reader& in, WorldData& data, const KnownThings& things) {
     codeNumbers(in, soft);
     require(soft.material.youngsModulus > 0 && soft.material.poissonRatio < 0.5f && soft.material.poissonRatio > -1,
             "a soft body's material");
+    require(soft.material.model <= SolidModel::Corotational, "a soft body's model");
     list(in, soft.bodies), list(in, soft.memory.pressures), list(in, soft.memory.tensions);
     require(soft.memory.pressures.size() == pressuresOf(*soft.mesh, soft.material), "a soft body's pressures");
     require(soft.memory.tensions.size() == tensionsOf(*soft.mesh, soft.material), "a soft body's tensions");

@@ -120,7 +120,7 @@ constexpr double kTetLambda = 2;    ///< of mu: at most, of tetrahedra, which mo
 /// So hard to compress that its pressures are augmented.
 bool isAugmented(const SoftMaterial& material) {
   const Lame lame = lameOf(material);
-  return lame.lambda > kMostLambda * lame.mu;
+  return material.model == SolidModel::NeoHookean && lame.lambda > kMostLambda * lame.mu;
 }
 
 }  // namespace
@@ -137,7 +137,11 @@ Elasticity elasticityOf(const SoftMaterial& material) {
   const auto [mu, lambda] = lameOf(material);
   const double share = tetShare(double{material.poissonRatio});
   const double tetMu = share * mu, tetLambda = share * std::min(lambda, kTetLambda * mu);
-  const double starMu = mu - tetMu, whole = lambda - tetLambda + starMu, used = kAugmented * mu;
+  const double starMu = mu - tetMu;
+  if (material.model == SolidModel::Corotational)
+    return {static_cast<float>(tetMu), static_cast<float>(tetLambda), static_cast<float>(starMu),
+            static_cast<float>(lambda - tetLambda), 0};
+  const double whole = lambda - tetLambda + starMu, used = kAugmented * mu;
   const bool augmented = isAugmented(material);
   return {static_cast<float>(tetMu), static_cast<float>(tetLambda + tetMu), static_cast<float>(starMu),
           static_cast<float>(augmented ? whole * used / (whole + used) : whole),

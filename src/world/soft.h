@@ -15,7 +15,7 @@ std::vector<float> softMasses(const SoftMeshData& mesh, const SoftMaterial& mate
 inline float particleInertia(float mass, float radius) { return 0.4f * mass * radius * radius; }
 double volumeOf(const WorldData& data, const SoftData& soft);  ///< [m^3] now
 
-/// Lame's parameters as the energies of a tetrahedron and of a star take them (rows/solid.h) [Pa].
+/// Lame's parameters as the energies of a tetrahedron and of a star take them (rows/solid.h, corotational.h) [Pa].
 struct Elasticity {
   float tetMu, tetLambda;
   float starMu, starLambda, starShare;

@@ -68,9 +68,9 @@ AVBD_INLINE SolidOp<R> solidOp(const Deformation<R>& s, const R& mu, const R& la
   return {s.f0, s.f1, s.f2, mu, lambda, clamp(pressure - mu, -bound, bound), damping * mu, damping * (lambda - mu)};
 }
 
-/// F S for a change of C.
-template <class R>
-AVBD_INLINE Columns<R> viscousOf(const SolidOp<R>& o, const Sym3<R>& c) {
+/// F S for a change of C. Op: SolidOp, or what another energy has in its place, with the same viscosity.
+template <class R, template <class> class Op>
+AVBD_INLINE Columns<R> viscousOf(const Op<R>& o, const Sym3<R>& c) {
   const R trace = o.zeta * 0.5f * (c.xx + c.yy + c.zz);
   const R sxx = o.eta * c.xx + trace, syy = o.eta * c.yy + trace, szz = o.eta * c.zz + trace;
   const R sxy = o.eta * c.xy, sxz = o.eta * c.xz, syz = o.eta * c.yz;
@@ -84,8 +84,8 @@ AVBD_INLINE Columns<R> operator+(const Columns<R>& a, const Columns<R>& b) {
 }
 
 /// Viscous stress of a step from F = start to that of the op.
-template <class R>
-AVBD_INLINE Columns<R> viscousStress(const SolidOp<R>& o, const Columns<R>& start) {
+template <class R, template <class> class Op>
+AVBD_INLINE Columns<R> viscousStress(const Op<R>& o, const Columns<R>& start) {
   return viscousOf<R>(o, {dot(o.f0, o.f0) - dot(start.x, start.x), dot(o.f1, o.f1) - dot(start.y, start.y),
                           dot(o.f2, o.f2) - dot(start.z, start.z), dot(o.f0, o.f1) - dot(start.x, start.y),
                           dot(o.f0, o.f2) - dot(start.x, start.z), dot(o.f1, o.f2) - dot(start.y, start.z)});
@@ -102,16 +102,16 @@ AVBD_INLINE Columns<R> elasticRate(const SolidOp<R>& o, const Columns<R>& d) {
 }
 
 /// Of viscosity alone.
-template <class R>
-AVBD_INLINE Columns<R> viscousRate(const SolidOp<R>& o, const Columns<R>& d) {
+template <class R, template <class> class Op>
+AVBD_INLINE Columns<R> viscousRate(const Op<R>& o, const Columns<R>& d) {
   return viscousOf<R>(
       o, {2.0f * dot(o.f0, d.x), 2.0f * dot(o.f1, d.y), 2.0f * dot(o.f2, d.z), dot(o.f0, d.y) + dot(d.x, o.f1),
           dot(o.f0, d.z) + dot(d.x, o.f2), dot(o.f1, d.z) + dot(d.y, o.f2)});
 }
 
 /// Of both. threads: not all lanes have damping 0; each gives the bits that it gives alone.
-template <class R>
-AVBD_INLINE Columns<R> stressRate(const SolidOp<R>& o, bool threads, const Columns<R>& d) {
+template <class R, template <class> class Op>
+AVBD_INLINE Columns<R> stressRate(const Op<R>& o, bool threads, const Columns<R>& d) {
   const Columns<R> elastic = elasticRate(o, d);
   if (!threads) return elastic;
   const Columns<R> both = elastic + viscousRate(o, d);

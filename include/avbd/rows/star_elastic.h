@@ -19,6 +19,7 @@ struct StarElastic {
   R damping;         ///< t / h
   R pressure;        ///< of the iteration before, times the volume [J]
 
+  AVBD_INLINE Deformation<R> deformation(const Columns<R>& change) const { return deformationOf(start + change); }
   AVBD_INLINE R pressureAt(const Deformation<R>& s) const { return lambda * (s.J - 1.0f) + share * pressure; }
   AVBD_INLINE SolidOp<R> op(const Deformation<R>& s) const { return solidOp<R>(s, mu, lambda, pressureAt(s), damping); }
   AVBD_INLINE Columns<R> stress(const Deformation<R>& s, const SolidOp<R>& op) const {

@@ -37,7 +37,8 @@ struct TetElastic {
     spread(op, elasticStress<R>(s, mu, lambda * (s.J - 1.0f)) + viscousStress(op.solid, gradientOf(ab, ac, ad)), out);
   }
   /// Of a stress the forces on the blocks.
-  AVBD_INLINE static void spread(const ElasticOp<R>& o, const Columns<R>& p, V3<R> (&out)[4]) {
+  template <class Op>
+  AVBD_INLINE static void spread(const Op& o, const Columns<R>& p, V3<R> (&out)[4]) {
     out[1] = p.x * o.gb.x + p.y * o.gb.y + p.z * o.gb.z;
     out[2] = p.x * o.gc.x + p.y * o.gc.y + p.z * o.gc.z;
     out[3] = p.x * o.gd.x + p.y * o.gd.y + p.z * o.gd.z;
@@ -45,9 +46,9 @@ struct TetElastic {
   }
 };
 
-/// H p of the four blocks. threads: not all have damping 0.
-template <class R>
-AVBD_INLINE void multiply(const ElasticOp<R>& o, bool threads, const V3<R> (&p)[4], V3<R> (&out)[4]) {
+/// H p of the four blocks. threads: not all have damping 0. Op: that of an energy of tetrahedra.
+template <class R, template <class> class Op>
+AVBD_INLINE void multiply(const Op<R>& o, bool threads, const V3<R> (&p)[4], V3<R> (&out)[4]) {
   const V3<R> b = p[1] - p[0], c = p[2] - p[0], e = p[3] - p[0];
   const Columns<R> d{b * o.gb.x + c * o.gc.x + e * o.gd.x, b * o.gb.y + c * o.gc.y + e * o.gd.y,
                      b * o.gb.z + c * o.gc.z + e * o.gd.z};
