@@ -21,13 +21,33 @@ bool isBefore(const PlannedImpact& x, const PlannedImpact& y) {
 /// For a heap with the first impact on top.
 bool isAfter(const PlannedImpact& x, const PlannedImpact& y) { return isBefore(y, x); }
 
+/// Neither stopped nor carried yet.
+bool isLive(const MovedBody& moved) { return moved.state == State::Free || moved.state == State::Joined; }
+
+/// Whether a body may be moved aside of where the solve put it, as nothing but contacts hold it.
+bool isLoose(const WorldData& world, uint32_t slot) {
+  const BodyData& body = world.bodies[slot];
+  return body.type == BodyType::Dynamic && !body.asleep && body.continuous && body.locks == 0 &&
+         !anyJoint(world, slot, [&](uint32_t joint) { return acts(world, joint); });
+}
+/// Whether a body and those that it touches, few enough, could be moved all alike: nothing else holds them.
+bool floats(const WorldData& world, const StepData& step, uint32_t slot) {
+  if (!isLoose(world, slot)) return false;
+  const Island& island = step.islands[step.islandOf[slot]];
+  if (!island.floating || island.bodyCount > kMostTogether) return false;
+  if (island.jointCount + island.softCount + island.touchCount > 0) return false;
+  for (uint32_t i = 0; i < island.bodyCount; ++i)
+    if (!isLoose(world, step.order[island.bodyBegin + i])) return false;
+  return true;
+}
+
 class Search {
  public:
   Search(WorldData& world, StepData& step) : world_(world), step_(step), c_(step.continuous) {}
 
   void run() {
     const auto fast = static_cast<uint32_t>(c_.bodies.size());
-    c_.meets.clear(), c_.queue.clear(), c_.visits.clear();
+    c_.meets.clear(), c_.queue.clear(), c_.visits.clear(), c_.groups.clear();
     for (uint32_t i = 0; i < fast; ++i) c_.bodies[i].box = boundsOnWay(world_, c_.bodies[i].motion, c_.bodies[i].slot);
     meetEachOther(fast);
     for (uint32_t i = 0; i < fast; ++i) meetOthers(i, true);
@@ -79,10 +99,10 @@ class Search {
 
   bool isVisit(uint32_t a, uint32_t b) const { return world_.shapes[a].isTrigger || world_.shapes[b].isTrigger; }
 
-  void meet(uint32_t shapeA, uint32_t shapeB, bool first) {
+  void meet(uint32_t shapeA, uint32_t shapeB) {
     if (!mayTouch(world_, shapeA, shapeB)) return;
     if (!isVisit(shapeA, shapeB)) return addMeet(shapeA, shapeB);
-    if (first) c_.visits.push_back(slotPair(shapeA, shapeB));
+    c_.visits.push_back(slotPair(shapeA, shapeB));
   }
 
   /// Fast bodies may have left their boxes in the tree.
@@ -90,21 +110,32 @@ class Search {
     forEachOverlap(
         fast, c_.byX, [&](uint32_t i) -> const Aabb& { return c_.bodies[i].box; },
         [&](uint32_t i, uint32_t k) {
-          forEachShapePair(world_, c_.bodies[i].slot, c_.bodies[k].slot,
-                           [&](uint32_t s, uint32_t t) { meet(s, t, true); });
+          forEachShapePair(world_, c_.bodies[i].slot, c_.bodies[k].slot, [&](uint32_t s, uint32_t t) { meet(s, t); });
         });
   }
 
   /// Adds what a body's shapes meet in the tree.
-  void meetOthers(uint32_t index, bool first) {
+  void meetOthers(uint32_t index, bool first, float spare = 0) {
     const uint32_t slot = c_.bodies[index].slot;
     const BodyMotion motion = c_.bodies[index].motion;
     for (uint32_t s = world_.bodies[slot].firstShape; s != kNone; s = world_.shapes[s].next) {
-      const Aabb box = boundsOnWay(motion, world_.shapes[s], world_.bodies[slot].radius);
+      const Aabb box = grown(boundsOnWay(motion, world_.shapes[s], world_.bodies[slot].radius), spare);
       world_.tree.query(box, [&](uint32_t other) {
         const uint32_t known = c_.indexOf[world_.shapes[other].body];
         if (known != kNone && (known == index || (first && c_.bodies[known].isFast))) return;
-        if (first || !isKnown(index, s, other)) meet(s, other, first);
+        if (first || !isKnown(index, s, other)) meet(s, other);
+      });
+    }
+  }
+
+  /// Adds what a body meets that has left its box in the tree.
+  void meetMoved(uint32_t index) {
+    const Aabb box = c_.bodies[index].box;
+    for (uint32_t k = 0; k < c_.bodies.size(); ++k) {
+      const MovedBody& other = c_.bodies[k];
+      if (k == index || (!other.isFast && other.state != State::Joined) || !overlaps(box, other.box)) continue;
+      forEachShapePair(world_, c_.bodies[index].slot, other.slot, [&](uint32_t s, uint32_t t) {
+        if (!isKnown(index, s, t)) meet(s, t);
       });
     }
   }
@@ -114,13 +145,16 @@ class Search {
     return moved.state == State::Carried || (moved.isFast && !isDynamic(moved));
   }
   bool isStopped(const MovedBody& moved, const MovedBody& by) const {
-    return moved.state == State::Free && isDynamic(moved) && !bodyOf(moved).asleep && bodyOf(moved).continuous &&
-           !isTied(world_, moved.slot) && (moved.isFast || isUnstoppable(by));
+    return isLive(moved) && isDynamic(moved) && !bodyOf(moved).asleep && bodyOf(moved).continuous &&
+           !isTied(world_, moved.slot) && (moved.isFast || moved.state == State::Joined || isUnstoppable(by));
   }
 
   /// Whether one of the two would stop.
   bool isOpen(uint32_t m) const {
     const MovedBody &a = c_.bodies[c_.meets[m].body[0]], &b = c_.bodies[c_.meets[m].body[1]];
+    const bool together =
+        a.group != kNone && a.group == b.group && a.state == State::Joined && b.state == State::Joined;
+    if (together && c_.groups[a.group].turnsNot) return false;
     return isStopped(a, b) || isStopped(b, a);
   }
 
@@ -150,7 +184,9 @@ class Search {
     const uint32_t a = meet.body[0], b = meet.body[1];
     const bool stopsA = isStopped(c_.bodies[a], c_.bodies[b]), stopsB = isStopped(c_.bodies[b], c_.bodies[a]);
     c_.changed.clear();
-    if (stopsA && stopsB) {
+    if ((stopsA || stopsB) && join(a, b, impact.time)) {
+      // Both go on.
+    } else if (stopsA && stopsB) {
       stop(a, impact.time), stop(b, impact.time);
     } else if (stopsA) {
       meetEnd(a, b, impact.time, impact.normal);
@@ -167,10 +203,7 @@ class Search {
     const MovedBody& other = c_.bodies[by];
     if (other.state == State::Stopped || bodyOf(other).type == BodyType::Static) return stop(index, time);
     if (isPulled(index)) return;
-    MovedBody& moved = c_.bodies[index];
-    const Vec3 turn = other.motion.turn * (1 - time);
-    change(index, State::Carried, time, carried(at(moved.motion, time), other.motion, time, normal));
-    moved.turned = moved.turned + turn;
+    change(index, State::Carried, time, carried(at(c_.bodies[index].motion, time), other.motion, time, normal));
   }
 
   void stop(uint32_t index, float time) {
@@ -180,10 +213,10 @@ class Search {
 
   void change(uint32_t index, State state, float time, const BodyMotion& motion) {
     MovedBody& moved = c_.bodies[index];
+    moved.turned = moved.turned + moved.motion.turn * (time - moved.since);
+    if (moved.state == State::Free) moved.before = moved.motion, moved.time = time;
     moved.state = state;
-    moved.time = time;
-    moved.turned = moved.motion.turn * time;
-    moved.before = moved.motion;
+    moved.since = time;
     moved.motion = motion;
     c_.changed.push_back(index);
   }
@@ -199,20 +232,122 @@ class Search {
     });
   }
 
+  /// Two that nothing else holds go on together. Returns false where that cannot be.
+  bool join(uint32_t a, uint32_t b, float time) {
+    const uint32_t groups[2] = {groupOf(a), groupOf(b)};
+    if (groups[0] == kNone || groups[1] == kNone) return false;
+    if (!isLive(c_.bodies[a]) || !isLive(c_.bodies[b])) return false;
+    if (groups[0] == groups[1]) return keepFromTurning(groups[0], time);
+    if (c_.groups[groups[0]].count + c_.groups[groups[1]].count > kMostTogether) return false;
+    const MeanMotion mean[2] = {meanOf(groups[0]), meanOf(groups[1])};
+    const float mass = mean[0].mass + mean[1].mass;
+    const Vec3 both = (mean[0].shift * mean[0].mass + mean[1].shift * mean[1].mass) * (1 / mass);
+    for (int k = 0; k < 2; ++k)
+      forEachLive(groups[k], [&](uint32_t i) {
+        change(i, State::Joined, time, shifted(c_.bodies[i].motion, both - mean[k].shift, time));
+      });
+    unite(groups[0], groups[1]);
+    return true;
+  }
+
+  /// What goes together and yet meets, as it turns or moves within, goes on like one body that does not turn.
+  bool keepFromTurning(uint32_t group, float time) {
+    c_.groups[group].turnsNot = true;
+    const Vec3 shift = meanOf(group).shift;
+    forEachLive(group, [&](uint32_t i) {
+      change(i, State::Joined, time, shifted(resting(at(c_.bodies[i].motion, time)), shift, time));
+    });
+    return true;
+  }
+
+  /// The body and what it touches, if nothing holds those; else one that may stop alone. kNone if it is none of these.
+  uint32_t groupOf(uint32_t index) {
+    if (c_.bodies[index].asked) return c_.bodies[index].group;
+    c_.bodies[index].asked = true;
+    const uint32_t slot = c_.bodies[index].slot;
+    const bool all = floats(world_, step_, slot);
+    if (!all && !(c_.bodies[index].isFast && isLoose(world_, slot))) return kNone;
+    const auto group = static_cast<uint32_t>(c_.groups.size());
+    c_.groups.push_back({});
+    if (!all) return addTo(group, index);
+    const Island& island = step_.islands[step_.islandOf[slot]];
+    for (uint32_t i = 0; i < island.bodyCount; ++i) addTo(group, indexOf(step_.order[island.bodyBegin + i]));
+    return group;
+  }
+
+  uint32_t addTo(uint32_t group, uint32_t index) {
+    MovedBody& moved = c_.bodies[index];
+    moved.asked = true, moved.group = group, moved.nextInGroup = c_.groups[group].first;
+    c_.groups[group].first = index, ++c_.groups[group].count;
+    return group;
+  }
+
+  template <class F>
+  void forEachLive(uint32_t group, F&& f) {
+    for (uint32_t i = c_.groups[group].first; i != kNone; i = c_.bodies[i].nextInGroup)
+      if (isLive(c_.bodies[i])) f(i);
+  }
+
+  struct MeanMotion {
+    float mass = 0;
+    Vec3 shift;
+  };
+  MeanMotion meanOf(uint32_t group) {
+    MeanMotion mean;
+    forEachLive(group, [&](uint32_t i) {
+      mean.mass += bodyOf(c_.bodies[i]).mass;
+      mean.shift = mean.shift + c_.bodies[i].motion.shift * bodyOf(c_.bodies[i]).mass;
+    });
+    mean.shift = mean.shift * (1 / mean.mass);
+    return mean;
+  }
+
+  void unite(uint32_t group, uint32_t other) {
+    uint32_t last = kNone;
+    for (uint32_t i = c_.groups[other].first; i != kNone; i = c_.bodies[i].nextInGroup)
+      c_.bodies[i].group = group, last = i;
+    c_.bodies[last].nextInGroup = c_.groups[group].first;
+    c_.groups[group].first = c_.groups[other].first;
+    c_.groups[group].count += c_.groups[other].count;
+    c_.groups[group].turnsNot = c_.groups[group].turnsNot && c_.groups[other].turnsNot;
+  }
+
+  /// Those that join others step by step change their ways by little, so more is searched than they need.
+  static float spareOf(const MovedBody& moved) { return 0.25f * length(moved.motion.shift); }
+  /// Whether a body goes where nothing was searched yet.
+  bool leavesBox(MovedBody& moved) const {
+    if (moved.state != State::Joined) return moved.state == State::Carried;
+    const Aabb way = boundsOnWay(world_, moved.motion, moved.slot);
+    if (contains(moved.box, way)) return false;
+    moved.box = grown(way, spareOf(moved));
+    return true;
+  }
+
   /// The changed bodies go another way from now on.
   void askAgain(float time) {
     const size_t known = c_.meets.size();
+    c_.astray.clear();
     for (const uint32_t index : c_.changed)
-      if (c_.bodies[index].state == State::Carried) meetOthers(index, false);
+      if (leavesBox(c_.bodies[index])) c_.astray.push_back(index);
+    for (const uint32_t index : c_.astray) {
+      const bool joined = c_.bodies[index].state == State::Joined;
+      meetOthers(index, false, joined ? spareOf(c_.bodies[index]) : 0);
+      if (joined) meetMoved(index);
+    }
     for (size_t m = known; m < c_.meets.size(); ++m) ask(static_cast<uint32_t>(m), time);
+    ++changes_;
     for (const uint32_t index : c_.changed)
-      for (uint32_t m = c_.bodies[index].firstMeet; m != kNone; m = nextMeet(m, index))
-        if (m < known) ask(m, time);
+      for (uint32_t m = c_.bodies[index].firstMeet; m != kNone; m = nextMeet(m, index)) {
+        if (m >= known || c_.meets[m].change == changes_) continue;
+        c_.meets[m].change = changes_;
+        ask(m, time);
+      }
   }
 
   WorldData& world_;
   StepData& step_;
   ContinuousData& c_;
+  uint32_t changes_ = 0;
 };
 
 void addFast(const WorldData& world, StepData& step, uint32_t slot, Vec3 way, Vec3 turn) {
@@ -245,17 +380,21 @@ void endThere(const WorldData& world, StepData& step, const MovedBody& moved) {
   const uint32_t index = step.endOf[moved.slot];
   StepData::EndState& end = step.end[index];
   Pose pose = at(moved.motion, 1);
+  Vec3 turned = moved.turned + moved.motion.turn * (1 - moved.since);
+  if (moved.state == State::Joined && moved.motion.turn == moved.before.turn) turned = moved.before.turn;
   if (moved.state == State::Carried && body.locks != 0) pose = unlockedPose(body, moved, pose);
+  const Vec3 way = toFloat(pose.position - body.position);
+  float* d = step.d.data() + size_t(8) * step.rowOfEnd[index];
+  d[0] = way.x, d[1] = way.y, d[2] = way.z;
+  end.position = pose.position;
+  if (turned == Vec3{d[4], d[5], d[6]}) return;
   const bool held = anyJoint(world, moved.slot, [&](uint32_t slot) { return acts(world, slot); });
   if ((body.locks >> 3) == 0 && !held) {
     const auto momentum = turnedProduct(toRow(body.inertia), toRow(end.rotation), toRow(end.angularVelocity));
     end.angularVelocity = fromRow(turnedProduct(toRow(body.invInertia), toRow(pose.rotation), momentum));
   }
-  end.position = pose.position, end.rotation = pose.rotation;
-  const Vec3 way = toFloat(end.position - body.position);
-  float* d = step.d.data() + size_t(8) * step.rowOfEnd[index];
-  d[0] = way.x, d[1] = way.y, d[2] = way.z;
-  d[4] = moved.turned.x, d[5] = moved.turned.y, d[6] = moved.turned.z;
+  end.rotation = pose.rotation;
+  d[4] = turned.x, d[5] = turned.y, d[6] = turned.z;
 }
 
 }  // namespace

@@ -3,8 +3,14 @@
 // A body that moves far for its size in a step could pass through something that the contacts of the step know nothing
 // of. Its way from the start of the step to its end is searched for the first impact, in order of time: what the body
 // then does for the rest of the step depends on what it meets.
-// - Something that stands still, or another body that is fast itself: both stop where they touch.
-// - Something that goes on (a kinematic body, a slow body): it takes the fast body along.
+// - Another body that nothing outside holds, or that is fast itself: from there on both go on with their common
+// velocity,
+//   and with them what they touch or have met before. That moves neither the centre of mass nor the moment of what they
+//   have of momentum, and is the same in whatever common flight they are.
+// - Something that stands still, or has a joint or lock to keep and is fast itself: what can stops where they touch.
+// - Something else that goes on (a kinematic body, a slow one that something holds, a point of a soft body): it takes
+// the
+//   fast body along.
 // Velocities stay, so momentum does: the next step finds a contact that is about to be hit, and solves it.
 //
 // A body that is tied to others by joints is not stopped: continuous_tied.cpp.
@@ -37,6 +43,8 @@ struct BodyMotion {
 Pose at(const BodyMotion& motion, float time);
 BodyMotion motionOf(const WorldData& world, const StepData& step, uint32_t body);
 BodyMotion resting(const Pose& pose);
+/// From `time` on with another shift, that much more over a whole step.
+BodyMotion shifted(const BodyMotion& motion, Vec3 more, float time);
 /// From `time` on as if fixed to what moves so; where that does not turn, along the normal alone and only if pushed.
 BodyMotion carried(const Pose& pose, const BodyMotion& by, float time, Vec3 normal);
 ShapeMotion motionOf(const BodyMotion& body, const ShapeData& shape, Vec3d origin);
@@ -49,16 +57,26 @@ float relativeWay(const BodyMotion& a, float radiusA, const BodyMotion& b, float
 
 /// A body in the search: fast, or met by one that is.
 struct MovedBody {
-  enum class State : uint8_t { Free, Stopped, Carried };
+  enum class State : uint8_t { Free, Joined, Stopped, Carried };
   uint32_t slot = kNone;
   State state = State::Free;
   bool isFast = false;
-  float time = 1;              ///< at which it was stopped or is carried from
-  uint32_t firstMeet = kNone;  ///< ShapesMeet::next leads on
+  bool asked = false;            ///< `group` is known
+  uint32_t group = kNone;        ///< in ContinuousData::groups
+  uint32_t nextInGroup = kNone;  ///< in ContinuousData::bodies
+  float time = 1;                ///< at which it first went another way
+  float since = 0;               ///< from when on `motion` holds
+  uint32_t firstMeet = kNone;    ///< ShapesMeet::next leads on
   BodyMotion motion;
   BodyMotion before;  ///< up to `time`, where it is not free any more
-  Vec3 turned;        ///< [rad] what it turns in all, likewise
-  Aabb box;           ///< on all its way; of fast ones
+  Vec3 turned;        ///< [rad] what it has turned up to `since`
+  Aabb box;           ///< holds all its way, and was searched; of fast ones and those that go on together
+};
+
+/// Bodies that touch, or have met and go on together.
+struct MovedGroup {
+  uint32_t first = kNone, count = 0;  ///< MovedBody::nextInGroup leads on
+  bool turnsNot = false;              ///< goes on like one body, without turning
 };
 
 /// Two shapes whose bounds meet on their way.
@@ -67,6 +85,7 @@ struct ShapesMeet {
   uint32_t shape[2] = {kNone, kNone};  ///< slots; the first is convex
   uint32_t next[2] = {kNone, kNone};   ///< the next one of body[k]
   uint32_t asked = 0;                  ///< how often its impact was looked for
+  uint32_t change = 0;                 ///< the last change of bodies that it was asked for
 };
 
 struct PlannedImpact {
@@ -81,10 +100,12 @@ struct ContinuousData {
   std::vector<MovedBody> bodies;
   std::vector<uint32_t> indexOf;  ///< by body slot: in `bodies`
   std::vector<ShapesMeet> meets;
+  std::vector<MovedGroup> groups;
   std::vector<Impact> answers;          ///< by meet, to what is asked first
   std::vector<PlannedImpact> queue;     ///< a heap
   std::vector<uint32_t> byX;            ///< fast bodies by where they begin along x
   std::vector<uint32_t> changed;        ///< in `bodies`: by the last impact
+  std::vector<uint32_t> astray;         ///< of those, the ones that go where nothing was searched
   std::vector<uint64_t> visits;         ///< triggers and fast bodies that may pass through them: shape slots
   std::vector<TriggerEvent> crossings;  ///< triggers that were entered and left, of all substeps so far
 };
@@ -148,6 +169,8 @@ void forEachShapePair(const WorldData& world, uint32_t bodyA, uint32_t bodyB, F&
     for (uint32_t t = world.bodies[bodyB].firstShape; t != kNone; t = world.shapes[t].next) f(s, t);
 }
 
+/// More bodies than this do not go on together: each that joins has all their ways searched again.
+inline constexpr uint32_t kMostTogether = 32;
 inline constexpr float kFastWay = 0.5f;  ///< of a half thickness: who moves farther in a step is fast
 
 /// The convex shape of two first; of two convex ones the lower slot.

@@ -53,6 +53,13 @@ BodyMotion motionOf(const WorldData& world, const StepData& step, uint32_t slot)
 
 BodyMotion resting(const Pose& pose) { return {pose.position, {}, pose.rotation, {}, {}}; }
 
+BodyMotion shifted(const BodyMotion& motion, Vec3 more, float time) {
+  BodyMotion other = motion;
+  other.center = motion.center - more * time;
+  other.shift = motion.shift + more;
+  return other;
+}
+
 BodyMotion carried(const Pose& pose, const BodyMotion& by, float time, Vec3 normal) {
   BodyMotion motion = resting(pose);
   if (by.turn == Vec3{}) {

@@ -11,21 +11,24 @@ namespace {
 
 constexpr float kTolerance = 0.1f;  ///< of the slop
 
-/// What is known of a body: its way up to `time`, and where it ends.
+/// What is known of a body: its way up to `time`, that from `since` on, and where it ends.
 struct Way {
   BodyMotion motion;
   Pose end;
   float time;
+  BodyMotion rest;
+  float since;
 };
 
 Way wayOf(const WorldData& world, const StepData& step, uint32_t body) {
   const uint32_t index = step.continuous.indexOf[body];
   if (index == kNone) {
     const BodyMotion motion = motionOf(world, step, body);
-    return {motion, at(motion, 1), 1};
+    return {motion, at(motion, 1), 1, motion, 0};
   }
   const MovedBody& moved = step.continuous.bodies[index];
-  return {moved.state == MovedBody::State::Free ? moved.motion : moved.before, at(moved.motion, 1), moved.time};
+  const BodyMotion& first = moved.state == MovedBody::State::Free ? moved.motion : moved.before;
+  return {first, at(moved.motion, 1), moved.time, moved.motion, moved.since};
 }
 
 /// By more than rounding: what just touches at the end is found by the next step's overlap.
@@ -39,12 +42,16 @@ bool passes(const WorldData& world, const StepData& step, uint32_t slotA, uint32
   if (!isConvex(a.geom.type) || !isConvex(b.geom.type)) return false;
   const Way wayA = wayOf(world, step, a.body), wayB = wayOf(world, step, b.body);
   const Vec3d origin = at(wayA.motion, 0).position;
-  const ImpactQuery query{0, kTolerance * step.slop, 0, std::min(wayA.time, wayB.time)};
-  const Impact impact =
-      timeOfImpact(a.geom, motionOf(wayA.motion, a, origin), b.geom, motionOf(wayB.motion, b, origin), query);
-  return impact.happens && impact.before > query.tolerance &&
+  const auto enters = [&](const BodyMotion& motionA, const BodyMotion& motionB, float from, float to) {
+    const ImpactQuery query{0, kTolerance * step.slop, from, to};
+    const Impact impact =
+        timeOfImpact(a.geom, motionOf(motionA, a, origin), b.geom, motionOf(motionB, b, origin), query);
+    return impact.happens && impact.before > query.tolerance;
+  };
+  const float time = std::min(wayA.time, wayB.time), since = std::max(wayA.since, wayB.since);
+  return (enters(wayA.motion, wayB.motion, 0, time) || (since > 0 && enters(wayA.rest, wayB.rest, since, 1))) &&
          apart(a.geom, motionOf(resting(wayA.end), a, wayA.end.position), b.geom,
-               motionOf(resting(wayB.end), b, wayA.end.position), query.tolerance);
+               motionOf(resting(wayB.end), b, wayA.end.position), kTolerance * step.slop);
 }
 
 }  // namespace
