@@ -99,9 +99,25 @@ class Search {
 
   bool isVisit(uint32_t a, uint32_t b) const { return world_.shapes[a].isTrigger || world_.shapes[b].isTrigger; }
 
+  /// A point of a surface and what moves: the faces about the point go before that (soft_impacts.h).
+  bool facesMeet(uint32_t shapeA, uint32_t shapeB) const {
+    const auto isOfSurface = [&](uint32_t shape) {
+      const uint32_t body = world_.shapes[shape].body;
+      return isParticle(world_, body) && !world_.softs[world_.bodies[body].soft].mesh->surface().empty();
+    };
+    const auto moves = [&](uint32_t shape) {  // half-spaces meet points alone
+      const ShapeData& data = world_.shapes[shape];
+      return world_.bodies[data.body].type != BodyType::Static && data.geom.type != ShapeType::HalfSpace;
+    };
+    return (isOfSurface(shapeA) && moves(shapeB)) || (isOfSurface(shapeB) && moves(shapeA));
+  }
+
   void meet(uint32_t shapeA, uint32_t shapeB) {
     if (!mayTouch(world_, shapeA, shapeB)) return;
-    if (!isVisit(shapeA, shapeB)) return addMeet(shapeA, shapeB);
+    if (!isVisit(shapeA, shapeB)) {
+      if (!facesMeet(shapeA, shapeB)) addMeet(shapeA, shapeB);
+      return;
+    }
     c_.visits.push_back(slotPair(shapeA, shapeB));
   }
 
