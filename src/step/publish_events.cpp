@@ -184,9 +184,13 @@ void publishLost(WorldData& world, StepData& step) {
   all.clear();
 }
 
-/// Triggers that fast bodies entered and left within the step; soft bodies leave in the next one.
+/// Triggers that fast bodies entered and left within the step; soft bodies leave in the next one. Of a pair that leaves
+/// in this step anyhow, or passes in several substeps, that is told once.
 void publishCrossings(WorldData& world, StepData& step) {
+  const std::vector<TriggerEvent>& leaves = world.events.leaves;
   for (const TriggerEvent& e : step.continuous.crossings) {
+    const auto isSame = [&](const TriggerEvent& x) { return x.trigger == e.trigger && x.visitor == e.visitor; };
+    if (std::any_of(leaves.begin(), leaves.end(), isSame)) continue;
     if (anyIsParticle(world, world.bodyIds.slot(e.visitorBody), world.bodyIds.slot(e.triggerBody)))
       noteSoftVisit(world, step, world.shapeIds.slot(e.trigger), world.shapeIds.slot(e.visitor), true);
     else
