@@ -4,12 +4,10 @@
 // of. Its way from the start of the step to its end is searched for the first impact, in order of time: what the body
 // then does for the rest of the step depends on what it meets.
 // - Another body that nothing outside holds, or that is fast itself: from there on both go on with their common
-// velocity,
-//   and with them what they touch or have met before. That moves neither the centre of mass nor the moment of what they
-//   have of momentum, and is the same in whatever common flight they are.
+//   velocity, and with them what they touch or have met before. That moves neither the centre of mass nor the moment of
+//   what they have of momentum, and is the same in whatever common flight they are.
 // - Something that stands still, or has a joint or lock to keep and is fast itself: what can stops where they touch.
-// - Something else that goes on (a kinematic body, a slow one that something holds, a point of a soft body): it takes
-// the
+// - Something else that goes on (a kinematic body, a slow one that something holds, a point of a rope): it takes the
 //   fast body along.
 // Velocities stay, so momentum does: the next step finds a contact that is about to be hit, and solves it.
 //
