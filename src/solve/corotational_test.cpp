@@ -14,19 +14,18 @@
 namespace avbd::rows {
 namespace {
 
-using Points = std::array<Vec3d, 4>;
+using Points = TetAtRest::Points;
 using V = V3<float>;
 using F = Columns<float>;
 /// Columns, in double.
 using Exact = std::array<Vec3d, 3>;
 
-const Points kRest = {Vec3d{0, 0, 0}, {1, 0.1, 0}, {0.2, 1.1, -0.1}, {0.1, 0.3, 0.9}};
+constexpr Points kRest = TetAtRest::kPoints;
 const Quat kTurn{0.5f, 0.5f, -0.5f, 0.5f};
 
 ElementDraws draws;
 Points moved(double size) { return draws.moved(kRest, size); }
 
-Vec3d toDouble3(const V& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 Exact toExact(const F& f) { return {toDouble3(f.x), toDouble3(f.y), toDouble3(f.z)}; }
 F toColumns(const Exact& f) { return {toFloat3(f[0]), toFloat3(f[1]), toFloat3(f[2])}; }
 double contraction(const Exact& a, const Exact& b) { return dot(a[0], b[0]) + dot(a[1], b[1]) + dot(a[2], b[2]); }
@@ -97,28 +96,14 @@ TEST(Polar, OfAFlatACollapsedAndAMirroredFIsARotation) {
   }
 }
 
-struct Element {
+struct Element : TetAtRest {
   float mu = 3, lambda = 5;
-  Vec3d g[4];
 
-  Element() {
-    const Vec3d b = kRest[1] - kRest[0], c = kRest[2] - kRest[0], d = kRest[3] - kRest[0];
-    const double six = dot(b, crossOf(c, d));
-    g[1] = crossOf(c, d) * (1 / six), g[2] = crossOf(d, b) * (1 / six), g[3] = crossOf(b, c) * (1 / six);
-    g[0] = (g[1] + g[2] + g[3]) * -1.0;
-  }
   TetCorotational<float> rows(const Points& x) const {
     TetCorotational<float> rows;
-    rows.ab = toFloat3(x[1] - x[0]), rows.ac = toFloat3(x[2] - x[0]), rows.ad = toFloat3(x[3] - x[0]);
-    rows.gb = toFloat3(g[1]), rows.gc = toFloat3(g[2]), rows.gd = toFloat3(g[3]);
+    put(rows, x);
     rows.mu = mu, rows.lambda = lambda, rows.damping = 0;
     return rows;
-  }
-  Exact deformation(const Points& x) const {
-    Exact f{};
-    for (size_t i = 0; i < 4; ++i)
-      f[0] = f[0] + x[i] * g[i].x, f[1] = f[1] + x[i] * g[i].y, f[2] = f[2] + x[i] * g[i].z;
-    return f;
   }
   /// By the formula, in double.
   double energy(const Points& x) const {
@@ -128,21 +113,6 @@ struct Element {
     return double{mu} * contraction(off, off) + double{lambda} / 2 * trace * trace;
   }
 };
-
-std::array<V, 4> gradientAt(const Element& e, const Points& x) {
-  const V none[4] = {};
-  V out[4];
-  const TetCorotational<float> rows = e.rows(x);
-  const auto state = rows.deformation(none);
-  rows.gradient(state, rows.op(state), out);
-  return {out[0], out[1], out[2], out[3]};
-}
-
-TetCorotationalOp<float> opAt(const Element& e, const Points& x) {
-  const V none[4] = {};
-  const TetCorotational<float> rows = e.rows(x);
-  return rows.op(rows.deformation(none));
-}
 
 /// Of stretches that nearly cancel neither energy nor forces have a derivative.
 bool isSmooth(const Element& e, const Points& x) {
@@ -157,13 +127,7 @@ TEST(TetCorotational, GradientIsTheDerivativeOfTheEnergy) {
     const Points x = moved(0.8);
     if (!isSmooth(e, x)) continue;
     inverted += polarOf(toColumns(e.deformation(x))).least < 0;
-    const auto gradient = gradientAt(e, x);
-    for (size_t i = 0; i < 4; ++i)
-      for (int k = 0; k < 3; ++k) {
-        Points up = x, down = x;
-        axisOf(up[i], k) += 1e-5, axisOf(down[i], k) -= 1e-5;
-        EXPECT_NEAR(double{axisOf(gradient[i], k)}, (e.energy(up) - e.energy(down)) / 2e-5, 3e-4);
-      }
+    expectGradientOfEnergy(e, x, 3e-4);
   }
   EXPECT_GT(inverted, 3);
 }
@@ -172,18 +136,7 @@ TEST(TetCorotational, AtRestNothingPulls) {
   for (const V& g : gradientAt(Element(), kRest)) EXPECT_NEAR(double{length(g)}, 0, 1e-5);
 }
 
-TEST(TetCorotational, ATurnCostsNothingAndItsHessianSaysSo) {
-  const Element e;
-  Points x;
-  V spun[4], out[4];
-  for (size_t i = 0; i < 4; ++i) {
-    x[i] = rotate(kTurn, kRest[i]);
-    spun[i] = toFloat3(crossOf({0.4, -1, 0.8}, x[i]));
-  }
-  for (const V& g : gradientAt(e, x)) EXPECT_NEAR(double{length(g)}, 0, 2e-5);
-  multiply(opAt(e, x), false, spun, out);
-  for (const V& q : out) EXPECT_NEAR(double{length(q)}, 0, 2e-5);
-}
+TEST(TetCorotational, ATurnCostsNothingAndItsHessianSaysSo) { expectTurnsAreFree(Element()); }
 
 TEST(TetCorotational, ForcesTurnWithTheElement) {
   const Element e;
@@ -212,17 +165,6 @@ TEST(TetCorotational, HookesLawAtASmallStrain) {
   EXPECT_NEAR(stress.z.x, 2 * e.mu * 0.0002f, 1e-5f);
 }
 
-/// Of x along p, by the difference of gradients.
-std::array<V, 4> slope(const Element& e, const Points& x, const V (&p)[4]) {
-  constexpr double kStep = 1e-3;
-  Points up = x, down = x;
-  for (size_t i = 0; i < 4; ++i) up[i] = up[i] + toDouble3(p[i]) * kStep, down[i] = down[i] - toDouble3(p[i]) * kStep;
-  const auto a = gradientAt(e, up), b = gradientAt(e, down);
-  std::array<V, 4> out;
-  for (size_t i = 0; i < 4; ++i) out[i] = (a[i] - b[i]) * static_cast<float>(0.5 / kStep);
-  return out;
-}
-
 TEST(TetCorotational, HessianIsTheDerivativeOfTheGradientAtRestAndWhereItIsStretched) {
   const Element e;
   for (int trial = 0; trial < 20; ++trial) {
@@ -242,17 +184,8 @@ TEST(TetCorotational, HessianIsSymmetricAndNeverNegative) {
   const Element e;
   for (const double size : {0.1, 0.5, 2.0})
     for (int trial = 0; trial < 500; ++trial) {
-      const TetCorotationalOp<float> op = opAt(e, moved(size));
-      V p[4], r[4], hp[4], hr[4];
-      draws.draw(p), draws.draw(r);
-      multiply(op, true, p, hp), multiply(op, true, r, hr);
-      double pHr = 0, rHp = 0, pHp = 0, scale = 0;
-      for (size_t i = 0; i < 4; ++i) {
-        pHr += double{dot(p[i], hr[i])}, rHp += double{dot(r[i], hp[i])}, pHp += double{dot(p[i], hp[i])};
-        scale += double{length(p[i]) * length(hr[i])};
-      }
-      EXPECT_NEAR(pHr, rHp, 1e-4 * scale);
-      EXPECT_GE(pHp, -1e-5 * scale) << "size " << size;
+      SCOPED_TRACE(size);
+      expectSymmetricAndNotNegative(opAt(e, moved(size)), draws, -1e-5);
     }
 }
 

@@ -14,37 +14,23 @@
 namespace avbd::rows {
 namespace {
 
-using Points = std::array<Vec3d, 4>;
+using Points = TetAtRest::Points;
 using V = V3<float>;
 
-const Points kRest = {Vec3d{0, 0, 0}, {1, 0.1, 0}, {0.2, 1.1, -0.1}, {0.1, 0.3, 0.9}};
+constexpr Points kRest = TetAtRest::kPoints;
 
-struct Element {
+struct Element : TetAtRest {
   float mu = 3, lambda = 11;
-  Vec3d g[4];
 
-  Element() {
-    const Vec3d b = kRest[1] - kRest[0], c = kRest[2] - kRest[0], d = kRest[3] - kRest[0];
-    const double six = dot(b, crossOf(c, d));
-    g[1] = crossOf(c, d) * (1 / six), g[2] = crossOf(d, b) * (1 / six), g[3] = crossOf(b, c) * (1 / six);
-    g[0] = (g[1] + g[2] + g[3]) * -1.0;
-  }
   TetElastic<float> rows(const Points& x) const {
-    return {toFloat3(x[1] - x[0]),
-            toFloat3(x[2] - x[0]),
-            toFloat3(x[3] - x[0]),
-            toFloat3(g[1]),
-            toFloat3(g[2]),
-            toFloat3(g[3]),
-            mu,
-            lambda,
-            0};
+    TetElastic<float> rows;
+    put(rows, x);
+    rows.mu = mu, rows.lambda = lambda, rows.damping = 0;
+    return rows;
   }
   /// By the formula, in double.
   double energy(const Points& x) const {
-    Vec3d f[3];
-    for (size_t i = 0; i < 4; ++i)
-      f[0] = f[0] + x[i] * g[i].x, f[1] = f[1] + x[i] * g[i].y, f[2] = f[2] + x[i] * g[i].z;
+    const std::array<Vec3d, 3> f = deformation(x);
     const double m = double{mu}, l = double{lambda}, J = dot(f[0], crossOf(f[1], f[2])), off = J - 1 - m / l;
     return m / 2 * (dot(f[0], f[0]) + dot(f[1], f[1]) + dot(f[2], f[2]) - 3) + l / 2 * off * off;
   }
@@ -53,66 +39,16 @@ struct Element {
 ElementDraws draws;
 Points moved(double size) { return draws.moved(kRest, size); }
 
-std::array<V, 4> gradientAt(const Element& e, const Points& x) {
-  const V none[4] = {};
-  V out[4];
-  const TetElastic<float> rows = e.rows(x);
-  const auto state = rows.deformation(none);
-  rows.gradient(state, rows.op(state), out);
-  return {out[0], out[1], out[2], out[3]};
-}
-
-ElasticOp<float> opAt(const Element& e, const Points& x) {
-  const V none[4] = {};
-  const TetElastic<float> rows = e.rows(x);
-  return rows.op(rows.deformation(none));
-}
-
 TEST(TetElastic, GradientIsTheDerivativeOfTheEnergy) {
   const Element e;
-  for (int trial = 0; trial < 20; ++trial) {
-    const Points x = moved(0.4);
-    const auto gradient = gradientAt(e, x);
-    for (size_t i = 0; i < 4; ++i)
-      for (int k = 0; k < 3; ++k) {
-        Points up = x, down = x;
-        axisOf(up[i], k) += 1e-5, axisOf(down[i], k) -= 1e-5;
-        EXPECT_NEAR(double{axisOf(gradient[i], k)}, (e.energy(up) - e.energy(down)) / 2e-5, 2e-4);
-      }
-  }
+  for (int trial = 0; trial < 20; ++trial) expectGradientOfEnergy(e, moved(0.4), 2e-4);
 }
 
 TEST(TetElastic, AtRestNothingPulls) {
   for (const V& g : gradientAt(Element(), kRest)) EXPECT_NEAR(double{length(g)}, 0, 1e-5);
 }
 
-TEST(TetElastic, ATurnCostsNothingAndItsHessianSaysSo) {
-  const Element e;
-  const Quat turn = Quat{0.5f, 0.5f, -0.5f, 0.5f};
-  Points x;
-  V spun[4], out[4];
-  for (size_t i = 0; i < 4; ++i) {
-    x[i] = rotate(turn, kRest[i]);
-    spun[i] = toFloat3(crossOf({0.4, -1, 0.8}, x[i]));
-  }
-  for (const V& g : gradientAt(e, x)) EXPECT_NEAR(double{length(g)}, 0, 2e-5);
-  multiply(opAt(e, x), false, spun, out);
-  for (const V& q : out) EXPECT_NEAR(double{length(q)}, 0, 2e-5);
-}
-
-/// Of x along p, by the difference of gradients.
-std::array<V, 4> slope(const Element& e, const Points& x, const V (&p)[4]) {
-  constexpr double kStep = 1e-3;
-  Points up = x, down = x;
-  for (size_t i = 0; i < 4; ++i) {
-    const Vec3d way{double{p[i].x}, double{p[i].y}, double{p[i].z}};
-    up[i] = up[i] + way * kStep, down[i] = down[i] - way * kStep;
-  }
-  const auto a = gradientAt(e, up), b = gradientAt(e, down);
-  std::array<V, 4> out;
-  for (size_t i = 0; i < 4; ++i) out[i] = (a[i] - b[i]) * static_cast<float>(0.5 / kStep);
-  return out;
-}
+TEST(TetElastic, ATurnCostsNothingAndItsHessianSaysSo) { expectTurnsAreFree(Element()); }
 
 void draw(V (&p)[4]) { draws.draw(p); }
 
@@ -135,17 +71,8 @@ TEST(TetElastic, HessianIsSymmetricAndNeverNegative) {
   const Element e;
   for (const double size : {0.1, 0.5, 2.0})
     for (int trial = 0; trial < 200; ++trial) {
-      const ElasticOp<float> op = opAt(e, moved(size));
-      V p[4], r[4], hp[4], hr[4];
-      draw(p), draw(r);
-      multiply(op, true, p, hp), multiply(op, true, r, hr);
-      double pHr = 0, rHp = 0, pHp = 0, scale = 0;
-      for (size_t i = 0; i < 4; ++i) {
-        pHr += double{dot(p[i], hr[i])}, rHp += double{dot(r[i], hp[i])}, pHp += double{dot(p[i], hp[i])};
-        scale += double{length(p[i]) * length(hr[i])};
-      }
-      EXPECT_NEAR(pHr, rHp, 1e-4 * scale);
-      EXPECT_GE(pHp, -0.05 * scale) << "size " << size;
+      SCOPED_TRACE(size);
+      expectSymmetricAndNotNegative(opAt(e, moved(size)), draws, -0.05);
     }
 }
 
@@ -188,9 +115,7 @@ struct Step {
 
 /// Green's strain, twice it and plus I, at some points: of the element's linear deformation.
 std::array<std::array<double, 3>, 3> squaresAt(const Element& e, const Points& x) {
-  Vec3d f[3];
-  for (size_t i = 0; i < 4; ++i)
-    f[0] = f[0] + x[i] * e.g[i].x, f[1] = f[1] + x[i] * e.g[i].y, f[2] = f[2] + x[i] * e.g[i].z;
+  const std::array<Vec3d, 3> f = e.deformation(x);
   std::array<std::array<double, 3>, 3> c;
   for (size_t i = 0; i < 3; ++i)
     for (size_t k = 0; k < 3; ++k) c[i][k] = dot(f[i], f[k]);
