@@ -51,15 +51,7 @@ Approach approachOf(const FourPoints& p, int split, Vec3 off) {
   Approach now;
   now.distance = lengthOf(off);
   if (!(now.distance > 0)) return now;
-  float first = 1e30f, second = -1e30f;
-  for (int i = 0; i < 4; ++i) {
-    const float along = dot(off, p.way[i]) / now.distance;
-    if (i < split)
-      first = std::min(first, along);
-    else
-      second = std::max(second, along);
-  }
-  now.speed = second - first;
+  now.speed = -leastApart(split, [&](int i) { return dot(off, p.way[i]) / now.distance; });
   return now;
 }
 

@@ -3,6 +3,8 @@
 
 #include <avbd/types.h>
 
+#include <algorithm>
+
 namespace avbd {
 
 /// The nearest point of a triangle, by its corners' weights.
@@ -23,6 +25,20 @@ struct FourPoints {
   Vec3 at[4], way[4];
   Vec3 when(int i, float time) const { return at[i] + way[i] * time; }
 };
+
+/// The least of the first `split` of four nodes less the most of the others; along(i): where node i is along a
+/// direction.
+template <class Along>
+float leastApart(int split, Along&& along) {
+  float first = 1e30f, second = -1e30f;
+  for (int i = 0; i < 4; ++i) {
+    if (i < split)
+      first = std::min(first, along(i));
+    else
+      second = std::max(second, along(i));
+  }
+  return first - second;
+}
 
 /// What two things must keep: they meet when they are nearer than both together.
 struct Kept {

@@ -2,6 +2,7 @@
 // pairs and joints stand in the order of their slots, so that nothing far away changes a sum.
 #include <algorithm>
 
+#include "base/disjoint_sets.h"
 #include "step/step_data.h"
 #include "world/joints.h"
 #include "world/pairs.h"
@@ -11,18 +12,6 @@
 namespace avbd {
 
 namespace {
-
-uint32_t find(std::vector<uint32_t>& parent, uint32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-/// The lower slot becomes the root.
-void join(std::vector<uint32_t>& parent, uint32_t a, uint32_t b) {
-  a = find(parent, a), b = find(parent, b);
-  if (a < b) parent[b] = a;
-  if (b < a) parent[a] = b;
-}
 
 constexpr uint32_t kPairGrain = Jobs::grainOf(2048);
 
@@ -104,7 +93,7 @@ void listBodies(const WorldData& world, StepData& step) {
   for (const auto& [slot, type, mass, iterations] : step.awake) {
     if (type == BodyType::Kinematic) step.kinematic.push_back(slot);
     if (type != BodyType::Dynamic) continue;
-    const uint32_t root = find(step.parent, slot);
+    const uint32_t root = setOf(step.parent, slot);
     if (root == slot) {
       step.islandOf[slot] = static_cast<uint32_t>(step.islands.size());
       step.islands.emplace_back();

@@ -63,7 +63,7 @@ float meetingTime(const WorldData& world, const SoftSurfaces& surfaces, const Ne
   const bool point = near.kind == TouchKind::PointFace;
   const float both = world.softs[near.first].radius + world.softs[near.second].radius;
   const Vec3 direction = contact.off * (1 / contact.distance);
-  const float end = leastApart(near.kind, [&](int i) { return dot(direction, near.points.when(i, 1)); });
+  const float end = leastApart(firstNodes(near.kind), [&](int i) { return dot(direction, near.points.when(i, 1)); });
   if (end >= keptOf(both, contact.distance).least) return 2;
   const Kept kept = keptOf(world, near, contact.distance);
   if (end >= kept.least) return 2;

@@ -17,19 +17,6 @@ struct NearFeatures : FeatureNames {
 /// How many of four nodes are the first side's.
 inline int firstNodes(TouchKind kind) { return kind == TouchKind::EdgeEdge ? 2 : 1; }
 
-/// The least of the first side's nodes less the most of the second's; along(i): where node i is along a direction.
-template <class Along>
-float leastApart(TouchKind kind, Along&& along) {
-  float first = 1e30f, second = -1e30f;
-  for (int i = 0; i < 4; ++i) {
-    if (i < firstNodes(kind))
-      first = std::min(first, along(i));
-    else
-      second = std::max(second, along(i));
-  }
-  return first - second;
-}
-
 /// Where the features of four nodes are nearest.
 struct NearestFeatures {
   Vec3 place;  ///< as SoftTouch::anchor

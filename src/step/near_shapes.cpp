@@ -60,7 +60,7 @@ class NearSearch {
     if (solved_ && body.type == BodyType::Dynamic) {
       const uint32_t end = step_.endOf[slot];
       const float* d = step_.d.data() + size_t(8) * step_.rowOfEnd[end];
-      piece.linear = toFloat(step_.end[end].position - body.position);
+      piece.linear = solvedWay(world_, step_, slot);
       piece.turn = {d[4], d[5], d[6]};
       return;
     }

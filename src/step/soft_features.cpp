@@ -48,7 +48,7 @@ bool edgesCount(const WorldData& world, const SoftSurfaces& surfaces, const Near
 
 /// How fast the second closes in along a direction, at most.
 float closing(const NearFeatures& near, Vec3 direction) {
-  return -leastApart(near.kind, [&](int i) { return dot(direction, near.points.way[i]); });
+  return -leastApart(firstNodes(near.kind), [&](int i) { return dot(direction, near.points.way[i]); });
 }
 
 /// Cloth has no inside: what touched it from one side and is on the other one by now has passed.

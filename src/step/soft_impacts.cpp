@@ -27,10 +27,6 @@ SoftImpacts::SoftImpacts(WorldData& world, StepData& step)
   d_.impacts.clear(), d_.met.clear(), d_.changed.clear(), d_.stopped.clear();
 }
 
-Vec3 SoftImpacts::solvedWay(uint32_t body) const {
-  return toFloat(step_.end[step_.endOf[body]].position - world_.bodies[body].position);
-}
-
 bool SoftImpacts::moves(uint32_t body) const { return isParticle(world_, body) && !world_.bodies[body].asleep; }
 
 void SoftImpacts::meet(const NearFeatures& near, float time) {
@@ -119,7 +115,7 @@ void SoftImpacts::begin() {
     const std::vector<uint32_t>& all = world_.softs[slot].bodies;
     for (uint32_t i = 0; i < all.size(); ++i) {
       d_.pointOf[all[i]] = i;
-      if (moves(all[i])) s_.ways[all[i]] = solvedWay(all[i]);
+      if (moves(all[i])) s_.ways[all[i]] = solvedWay(world_, step_, all[i]);
     }
   });
 }
@@ -210,7 +206,7 @@ void SoftImpacts::endPoint(uint32_t slot) {
   const BodyData& body = world_.bodies[slot];
   const uint32_t index = step_.endOf[slot];
   StepData::EndState& end = step_.end[index];
-  const Vec3 way = s_.ways[slot], solved = solvedWay(slot);
+  const Vec3 way = s_.ways[slot], solved = solvedWay(world_, step_, slot);
   if (way == solved) return;
   float* d = step_.d.data() + size_t(8) * step_.rowOfEnd[index];
   d[0] = way.x, d[1] = way.y, d[2] = way.z;

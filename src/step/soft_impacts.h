@@ -53,7 +53,6 @@ class SoftImpacts {
   void endPoint(uint32_t slot);
   void setWay(uint32_t body, Vec3 way);
   bool moves(uint32_t body) const;
-  Vec3 solvedWay(uint32_t body) const;
 
   WorldData& world_;
   StepData& step_;

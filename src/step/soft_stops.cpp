@@ -2,6 +2,7 @@
 // In the end only that is left, and what goes the same way from where it was apart stays apart.
 #include <algorithm>
 
+#include "base/disjoint_sets.h"
 #include "step/soft_impacts.h"
 
 namespace avbd {
@@ -13,10 +14,7 @@ constexpr int kPointPasses = 30;   ///< after these all points of the soft body 
 
 }  // namespace
 
-uint32_t SoftImpacts::groupOf(uint32_t member) {
-  while (d_.parent[member] != member) member = d_.parent[member] = d_.parent[d_.parent[member]];
-  return member;
-}
+uint32_t SoftImpacts::groupOf(uint32_t member) { return setOf(d_.parent, member); }
 
 void SoftImpacts::addToGroup(uint32_t slot) {
   const BodyData& body = world_.bodies[slot];
@@ -26,7 +24,9 @@ void SoftImpacts::addToGroup(uint32_t slot) {
     group.held = std::min(group.held, slot);
     return;
   }
-  const Vec3 way = !particle ? solvedWay(slot) : d_.stops[slot].share < 1 ? d_.stops[slot].way : s_.ways[slot];
+  const Vec3 way = !particle                  ? solvedWay(world_, step_, slot)
+                   : d_.stops[slot].share < 1 ? d_.stops[slot].way
+                                              : s_.ways[slot];
   group.mass += body.mass, group.way = group.way + way * body.mass;
 }
 
@@ -48,10 +48,7 @@ void SoftImpacts::findGroups() {
   const auto memberOf = [&](uint32_t slot) {
     return isParticle(world_, slot) ? world_.bodies[slot].soft : softs + slot;
   };
-  for (const Impact& impact : d_.impacts) {
-    const uint32_t a = groupOf(memberOf(impact.nodes[0])), b = groupOf(memberOf(impact.nodes[3]));
-    d_.parent[std::max(a, b)] = std::min(a, b);
-  }
+  for (const Impact& impact : d_.impacts) join(d_.parent, memberOf(impact.nodes[0]), memberOf(impact.nodes[3]));
   d_.groups.assign(d_.parent.size(), {});
   world_.softIds.forEach([&](uint32_t slot) {
     for (const uint32_t body : world_.softs[slot].bodies) addToGroup(body);

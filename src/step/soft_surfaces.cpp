@@ -128,6 +128,10 @@ void nearWithin(const SoftData& soft, const SoftPlace& place, uint32_t slot, std
 
 }  // namespace
 
+Vec3 solvedWay(const WorldData& world, const StepData& step, uint32_t body) {
+  return toFloat(step.end[step.endOf[body]].position - world.bodies[body].position);
+}
+
 void placeSofts(const WorldData& world, StepData& step) {
   placeAll(world, step, [&](uint32_t body) { return freeWay(world, world.bodies[body], step.h); });
 }
@@ -136,17 +140,17 @@ namespace {
 
 constexpr float kUsed = 0.75f;  ///< of the radius: how far beyond what is thought a point may go
 
-Vec3 solvedWay(const WorldData& world, const StepData& step, uint32_t body) {
+/// Where it goes now.
+Vec3 wayOf(const WorldData& world, const StepData& step, uint32_t body) {
   if (world.bodies[body].asleep) return {};
-  if (!step.softs.ways.empty()) return step.softs.ways[body];
-  return toFloat(step.end[step.endOf[body]].position - world.bodies[body].position);
+  return step.softs.ways.empty() ? solvedWay(world, step, body) : step.softs.ways[body];
 }
 
 }  // namespace
 
 void placeSolvedSofts(const WorldData& world, StepData& step) {
   step.softs.ways.clear();
-  placeAll(world, step, [&](uint32_t body) { return solvedWay(world, step, body); });
+  placeAll(world, step, [&](uint32_t body) { return wayOf(world, step, body); });
 }
 
 bool takeSolvedWays(const WorldData& world, StepData& step) {
@@ -161,7 +165,7 @@ bool takeSolvedWays(const WorldData& world, StepData& step) {
       return way >= std::min(thought, 0.0f) - slack && way <= std::max(thought, 0.0f) + slack;
     };
     for (size_t i = 0; i < soft.bodies.size(); ++i) {
-      const Vec3 way = solvedWay(world, step, soft.bodies[i]) - place.drift, thought = place.ways[i];
+      const Vec3 way = wayOf(world, step, soft.bodies[i]) - place.drift, thought = place.ways[i];
       within = within && inside(way.x, thought.x) && inside(way.y, thought.y) && inside(way.z, thought.z);
       place.ways[i] = way;
     }
@@ -197,7 +201,7 @@ void takeWays(const WorldData& world, StepData& step, const std::vector<std::arr
   for (const auto& [slot, point] : points) {
     SoftPlace& place = s.places[slot];
     const SoftData& soft = world.softs[slot];
-    place.ways[point] = solvedWay(world, step, soft.bodies[point]) - place.drift;
+    place.ways[point] = wayOf(world, step, soft.bodies[point]) - place.drift;
     place.pointBoxes[point] = merge(place.pointBoxes[point], pointBox(place, point, growth(world, soft)));
     touched[slot].resize(soft.bodies.size());
     touched[slot][point] = 1;

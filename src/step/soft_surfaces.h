@@ -98,6 +98,8 @@ struct PlaceShift {
 /// Of b's frame in a's.
 PlaceShift shiftOf(const SoftPlace& a, const SoftPlace& b);
 
+/// [m] that the solve led a body.
+Vec3 solvedWay(const WorldData& world, const StepData& step, uint32_t body);
 /// Puts all soft bodies to their places, with the ways that they go if nothing but gravity acts.
 void placeSofts(const WorldData& world, StepData& step);
 /// The same with the ways that the solve gave them.
